@@ -28,7 +28,7 @@ def hidden_alias(alias: str, target: str) -> str:
 
 
 def alias_parameter(parameter: str) -> str:
-    return f"the parameter {parameter} is an alias of a member, which is not read"
+    return f"the parameter {parameter} is an alias of a member, which it gets and gives at the end of the routine alone, but RETURN leaves before"
 
 
 def not_run(what: str) -> str:
@@ -41,3 +41,15 @@ def unused(routine: str) -> str:
 
 def too_deep(routine: str) -> str:
     return f"the routine {routine} has calls within calls, too many to be read; it is left out"
+
+
+def unset_flag(flag: str) -> str:
+    return f"nothing sets the flag {flag} here: it keeps what you write to it"
+
+
+def does_nothing(instruction: str) -> str:
+    return f"{instruction} changes nothing here, and is left out: no task interrupts another one, and outputs have no device"
+
+
+def no_size(call: str) -> str:
+    return f"{call} is of an array whose size the file does not show: the statement stays as it is, and is refused"

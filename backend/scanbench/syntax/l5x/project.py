@@ -7,8 +7,10 @@ from itertools import chain, count
 from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.declarations import data_type, dimensions_of, section, sections, types_of_data
-from scanbench.syntax.l5x.names import ELEMENTARY, name_of
-from scanbench.syntax.l5x.statements import Known, Parameter, Passed, TooDeep, passed_of, statements
+from scanbench.syntax.l5x.known import Known, Parameter, Passed
+from scanbench.syntax.l5x.names import CONTROLLER, ELEMENTARY, OWN, TYPES, name_of
+from scanbench.syntax.l5x.statements import TooDeep, passed_of, statements
+from scanbench.syntax.l5x.stubs import controller
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml, text_of
 
@@ -34,12 +36,18 @@ class _Reader:
 
     def __init__(self, controller: Element | None) -> None:
         self._controller = controller
+        self._mark_own_types()
         self._made = Project(attribute(controller, "Name") or "Logix")
         self._instructions = {
             attribute(each, "Name").upper(): _required(each)
             for each in self._all("AddOnInstructionDefinitions", "AddOnInstructionDefinition")
         }
         self._tags = [*self._all("Tags", "Tag"), *_module_tags(controller)]
+        self._members = {
+            attribute(each, "Name").upper(): _types(children(child(each, "Members"), "Member"))
+            for each in self._all("DataTypes", "DataType")
+        }
+        self._stubs: dict[str, str] = {}
         self._about_tags = Read("Tags", line_of(controller) if controller is not None else 1, "")
 
     def read(self) -> Project:
@@ -50,11 +58,27 @@ class _Reader:
         self._file("Types", self._types())
         self._file("Tags", sections("VAR_GLOBAL", self._tags, self._about_tags.notes))
         self._file("Configuration", self._configuration())
+        if self._stubs:
+            self._made.files[f"libraries/{CONTROLLER}.st"] = controller(self._stubs)
         if self._about_tags.notes:
             self._made.pous.append(self._about_tags)
         if self._made.files:
             self._made.files[LANGUAGE_FILE] = language_text("rockwell")
         return self._made
+
+    def _mark_own_types(self) -> None:
+        """Types and instructions of the file go before those of Logix."""
+        if self._controller is None:
+            return
+        own = {
+            attribute(each, "Name").upper()
+            for kind in (("DataTypes", "DataType"), ("AddOnInstructionDefinitions", "AddOnInstructionDefinition"))
+            for each in self._all(*kind)
+        }
+        if own := own & TYPES:
+            for each in self._controller.iter("Tag", "LocalTag", "Parameter", "Member"):
+                if attribute(each, "DataType").upper() in own:
+                    each.set("DataType", f"{OWN}{attribute(each, 'DataType')}")
 
     def _all(self, *path: str) -> Iterator[Element]:
         yield from children(child(self._controller, *path[:-1]), path[-1])
@@ -85,22 +109,24 @@ class _Reader:
         }
         own, locals = self._about_tags.notes, list(children(child(node, "LocalTags"), "LocalTag"))
         declared = (
-            section("VAR_INPUT", (each for each in of["Input"] if attribute(each, "TagType") != "Alias"), own)
-            + section("VAR_OUTPUT", (each for each in of["Output"] if attribute(each, "TagType") != "Alias"), own)
+            section("VAR_INPUT", of["Input"], own)
+            + section("VAR_OUTPUT", of["Output"], own)
             + section("VAR_IN_OUT", of["InOut"], own)
             + section("VAR", locals, own)
         )
-        own += [
-            notes.alias_parameter(f"{name}.{attribute(each, 'Name')}")
-            for each in parameters
-            if attribute(each, "TagType") == "Alias"
-        ]
-        known = Known(_aliases(parameters), {}, self._instructions, _types([*parameters, *locals]))
+        known = Known(
+            _aliases(parameters),
+            {},
+            self._instructions,
+            _types([*parameters, *locals]),
+            members=self._members,
+            stubs=self._stubs,
+        )
         body = ""
         for routine in children(child(node, "Routines"), "Routine"):
             read = self._read(f"{name}.{attribute(routine, 'Name')}", routine)
             if attribute(routine, "Name").upper() == "LOGIC":
-                body = _text(routine, known, read)
+                body = _with_aliases(_text(routine, known, read), parameters, known, read)
             elif not read.refused:
                 read.notes.append(notes.unused(attribute(routine, "Name")))
         return f"FUNCTION_BLOCK {name_of(name)}\n{declared}{body}END_FUNCTION_BLOCK\n"
@@ -113,7 +139,13 @@ class _Reader:
         taken = {attribute(each, "Name").upper() for each in tags}
         actions = {(found := attribute(each, "Name")).upper(): _action(found, taken) for each in routines}
         known = Known(
-            self._aliases_in(tags), actions, self._instructions, _types([*self._tags, *tags]), _passed(routines)
+            self._aliases_in(tags),
+            actions,
+            self._instructions,
+            _types([*self._tags, *tags]),
+            _passed(routines),
+            members=self._members,
+            stubs=self._stubs,
         )
         body, rest = "", ""
         for routine in routines:
@@ -233,6 +265,21 @@ def _aliases(tags: Iterable[Element]) -> dict[str, str]:
         for each in tags
         if attribute(each, "TagType") == "Alias" and attribute(each, "AliasFor")
     }
+
+
+def _with_aliases(body: str, parameters: Iterable[Element], known: Known, read: Read) -> str:
+    """The body with what alias parameters give to their members before it, and get from them after it."""
+    aliases = [each for each in parameters if attribute(each, "TagType") == "Alias" and attribute(each, "AliasFor")]
+    if aliases and re.search(r"(?i)\bRETURN\b", body):
+        read.notes += [notes.alias_parameter(attribute(each, "Name")) for each in aliases]
+        return body
+    before, after = "", ""
+    for each in aliases:
+        name, target = name_of(attribute(each, "Name")), statements(attribute(each, "AliasFor"), known, read.notes)
+        if attribute(each, "Usage") == "Input":
+            before += f"{target} := {name};\n"
+        after += f"{name} := {target};\n"
+    return f"{before}{body}{after}"
 
 
 def _action(routine: str, taken: set[str]) -> str:

@@ -5,11 +5,13 @@ instance as its first argument, a routine by JSR.
 """
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from scanbench.syntax.l5x import notes
-from scanbench.syntax.l5x.names import INSTRUCTIONS, LIBRARY, name_of
+from scanbench.syntax.l5x.instructions import WRITTEN
+from scanbench.syntax.l5x.known import Known, Parameter, Passed
+from scanbench.syntax.l5x.names import CONTROLLER, INSTRUCTIONS, LIBRARY, NOTHING, STUBS, name_of
 from scanbench.syntax.l5x.values import integer
 
 PIECE = re.compile(
@@ -31,41 +33,6 @@ BLANK = ("comment", "space")
 _COMMENT = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*", re.DOTALL)
 _SBR = re.compile(r"(?i)\bSBR\s*\(([^()]*)\)")
 _RET = re.compile(r"(?i)\bRET\s*\(([^()]*)\)")
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """A required one of an Add-On Instruction."""
-
-    name: str
-    usage: str
-    """`Input`, `Output` or `InOut`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Passed:
-    """What a routine is given and gives back, as it is written there."""
-
-    inputs: tuple[str, ...] = ()
-    results: tuple[str, ...] = ()
-
-
-@dataclass(slots=True)
-class Known:
-    """What the names in a routine mean; all names in upper case."""
-
-    aliases: Mapping[str, str] = field(default_factory=dict)
-    """What an alias is written for."""
-    routines: Mapping[str, str] = field(default_factory=dict)
-    """The action that each routine of the program is."""
-    instructions: Mapping[str, Sequence[Parameter]] = field(default_factory=dict)
-    """Add-On Instructions."""
-    types: Mapping[str, tuple[str, Sequence[int]]] = field(default_factory=dict)
-    """The type of each tag, in upper case, and its dimensions."""
-    passed: Mapping[str, Passed] = field(default_factory=dict)
-    """What each routine of the program is given and gives back, where that is read."""
-    routine: str = ""
-    """The one that is written, in upper case."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +113,11 @@ class _Writer:
             return piece.text
         if before is not None and before.text == ".":
             return name_of(piece.text)
+        if piece.text.upper() in FLAGS:
+            return self._flag(piece.text.upper())
+        bit = self._chosen_bit()
+        if bit is not None:
+            return bit
         if self._next() == "(":
             return self._call(piece.text)
         return self._name(piece.text)
@@ -204,16 +176,72 @@ class _Writer:
             return written
         return name_of(written.removeprefix("\\"))
 
+    def _flag(self, name: str) -> str:
+        """`S:FS` and the other flags of the controller."""
+        if name == "S:FS":
+            return "_FirstCycle"
+        flag = name.replace(":", "_")
+        self._known.stubs[flag] = "BOOL"
+        self._tell(notes.unset_flag(name))
+        return f"{CONTROLLER}.{flag}"
+
+    def _chosen_bit(self) -> str | None:
+        """`value.[number]`, which begins with the name that was taken: read, or assigned; None of other names."""
+        start, i, depth = self._at - 1, self._at, 0
+        while i < len(self._pieces):
+            text = self._pieces[i].text
+            if depth == 0 and text == "[" and self._pieces[i - 1].text == ".":
+                break
+            if depth == 0 and self._pieces[i].kind not in ("name", "number") and text not in (".", "["):
+                return None
+            depth += (text == "[") - (text == "]")
+            i += 1
+        else:
+            return None
+        last = self._closing(i)
+        if last is None:
+            return None
+        value = self._again("".join(each.text for each in self._pieces[start : i - 1]))
+        number = self._again("".join(each.text for each in self._pieces[i + 1 : last]))
+        self._at = last + 1
+        after = self._after_blanks(self._at)
+        if after is None or self._pieces[after].text != ":=":
+            return f"{LIBRARY}.BIT({value}, {number})"
+        self._at = after + 1
+        end = next((k for k in range(self._at, len(self._pieces)) if self._pieces[k].text == ";"), len(self._pieces))
+        given = self._again("".join(each.text for each in self._pieces[self._at : end])).strip()
+        self._at = end
+        return f"{value} := {LIBRARY}.WITH_BIT({value}, {number}, {given})"
+
+    def _closing(self, at: int) -> int | None:
+        """Where the bracket that is here is closed."""
+        depth = 0
+        for i in range(at, len(self._pieces)):
+            depth += (self._pieces[i].text == "[") - (self._pieces[i].text == "]")
+            if depth == 0:
+                return i
+        return None
+
     def _call(self, name: str) -> str:
         """An instruction or function."""
         upper = name.upper()
         if upper in KEYWORDS:  # `IF(a)`
             return name
+        if upper in STUBS and upper not in self._known.instructions:
+            self._skip_arguments()
+            self._known.stubs[upper] = ""
+            return f"{CONTROLLER}.{upper}()"
+        if upper in NOTHING and upper not in self._known.instructions:
+            self._skip_arguments()
+            self._tell(notes.does_nothing(upper))
+            return ""
         instead = CALLS.get(upper)
         if upper in self._known.instructions:
             return self._instruction(self._known.instructions[upper], self._arguments())
         if instead is not None:
             return instead(self, self._arguments())
+        if upper in WRITTEN:
+            return WRITTEN[upper](self._known, self._tell, self._arguments())
         return f"{LIBRARY}.{upper}" if upper in INSTRUCTIONS else name_of(name)
 
     def _instruction(self, parameters: Sequence[Parameter], given: list[str]) -> str:
@@ -262,27 +290,14 @@ class _Writer:
         self._tell(notes.with_parameters(name))
         return f"{name}({', '.join(given)})"
 
-    def copied(self, given: list[str]) -> str:
-        """COP, CPS: so many elements of the destination, byte for byte, up to its end."""
-        source, destination, length = (*given, "", "", "")[:3]
-        one, other = self._element(source), self._element(destination)
-        if one is None or other is None or one[0] != other[0] or one[0] in _PACKED:
-            self._tell(notes.other_bytes(f"COP({', '.join(given)})"))
-            return f"COP({', '.join(given)})"
-        target, left = other[1], other[2]
-        return f"{LIBRARY}.COP(ADR({one[1]}), ADR({target}), MIN({length}, {left}) * SIZEOF({target}))"
-
-    def _element(self, written: str) -> tuple[str, str, str] | None:
-        """Its type, how it is written, and how many there are from it on; None for what is no tag or element of one."""
-        found = _TAG.fullmatch(written)
-        known = self._known.types.get(found[1].upper()) if found is not None else None
-        if found is None or known is None or len(known[1]) > 1:
-            return None
-        type, sizes = known
-        if not sizes:
-            return None if found[2] is not None else (type, written, "1")
-        index = found[2] or "0"
-        return type, f"{found[1]}[{index}]", f"{sizes[0]} - ({index})" if index != "0" else str(sizes[0])
+    def _skip_arguments(self) -> None:
+        depth = 0
+        while self._at < len(self._pieces):
+            text = self._pieces[self._at].text
+            depth += (text == "(") - (text == ")")
+            self._at += 1
+            if depth == 0 and text == ")":
+                return
 
     def _arguments(self) -> list[str]:
         """Those in the parentheses that come now, in the words of the standard; comments between them are dropped."""
@@ -319,18 +334,14 @@ class _Writer:
 
 
 _DIGITS = re.compile(r"[0-9]{1,2}")
-_TAG = re.compile(r"(\w+)(?:\[([^\[\],]+)\])?")
-_PACKED = ("BOOL", "BIT")
-"""Types whose values share bytes there."""
-
 CALLS: dict[str, Callable[[_Writer, list[str]], str]] = {
     "JSR": _Writer.jump,
     "RET": _Writer.back,
     "TND": _Writer.back,
     "SBR": _Writer.begin,
-    "COP": _Writer.copied,
-    "CPS": _Writer.copied,
 }
+FLAGS = frozenset(("S:FS", "S:V", "S:Z", "S:N", "S:C", "S:MINOR"))
+"""What the controller tells of itself in bits."""
 KEYWORDS = frozenset(
     "IF THEN ELSIF ELSE END_IF CASE OF END_CASE FOR TO BY DO END_FOR WHILE END_WHILE REPEAT UNTIL END_REPEAT EXIT RETURN "
     "AND OR XOR NOT MOD TRUE FALSE".split()

@@ -7,8 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scanbench.check.libraries.catalogue import used_libraries
+from scanbench.syntax.l5x.known import Known, Parameter, Passed
 from scanbench.syntax.l5x.project import is_l5x, read_project
-from scanbench.syntax.l5x.statements import Known, Parameter, Passed, passed_of, statements
+from scanbench.syntax.l5x.statements import passed_of, statements
 from scanbench.syntax.xml_tree import BadXml
 from tests.amounts import amount
 from tests.caseformat import MODELS
@@ -86,8 +87,14 @@ KNOWN = Known(
         ("TONR(t1); Other(1, 2);", "Logix.TONR(t1); Other(1, 2);"),
         ("d := 2#19 + 8#9;", "d := 2#19 + 8#9;"),
         ("d := ---- 2 ** 2;", "d := -(-(-(-( 2 ** 2))));"),
-        ("COP(a[2], b, 4);", "Logix.COP(ADR(a[2]), ADR(b[0]), MIN(4, 4) * SIZEOF(b[0]));"),
-        ("COP(a[0], b[i + 1], n);", "Logix.COP(ADR(a[0]), ADR(b[i + 1]), MIN(n, 4 - (i + 1)) * SIZEOF(b[i + 1]));"),
+        (
+            "COP(a[2], b, 4);",
+            "Logix.COP(ADR(a[2]), ADR(b[0]), MIN(MIN(4, 4) * SIZEOF(b[0]), (9 - (2)) * SIZEOF(a[2])));",
+        ),
+        (
+            "COP(a[0], b[i + 1], n);",
+            "Logix.COP(ADR(a[0]), ADR(b[i + 1]), MIN(MIN(n, 4 - (i + 1)) * SIZEOF(b[i + 1]), (9) * SIZEOF(a[0])));",
+        ),
         ("CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;", "CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;"),
         ("d := -i ** 2 - x[1] ** 2;", "d := -(i ** 2) - x[1] ** 2;"),
         ("d := -2.0 ** -n.a[3] * -4;", "d := -(2.0 ** -n.a[3]) * -4;"),
@@ -108,13 +115,13 @@ def test_statements_are_written_as_the_standard_has_them(logix: str, here: str) 
 
 def test_what_a_statement_cannot_keep_is_told() -> None:
     told: list[str] = []
-    kept = "JSR(Fill, 1, a); RET(z); COP(a[0], w, 1); COP(bits[0], bits[1], 1);"
+    kept = "JSR(Fill, 1, a); RET(z); COP(bits[0], a[0], 1); COP(bits[0], bits[1], 1);"
     assert statements(f"x [:=] 1; {kept}", KNOWN, told) == f"x := 1; {kept}"
     assert told == [
         "`[:=]` is `:=` here: the variable keeps its value over a restart",
         "JSR has parameters, which are not read: the statement stays as it is, and is refused",
         "RET has parameters, which are not read: the statement stays as it is, and is refused",
-        "COP(a[0], w, 1) copies between different types, whose bytes are different here: the statement stays as it is, and is refused",
+        "COP(bits[0], a[0], 1) copies between different types, whose bytes are different here: the statement stays as it is, and is refused",
         "COP(bits[0], bits[1], 1) copies between different types, whose bytes are different here: the statement stays as it is, and is refused",
     ]
 
