@@ -53,7 +53,7 @@ test('a PLCopen file becomes a project that runs, drawn, and goes out again; wha
     const out = page.getByRole('dialog', { name: 'Export the program of Line' });
     await expect(out.getByRole('status')).toHaveText('All of the program is in the file.');
     await out.getByRole('radio', { name: 'IEC 61131-10' }).click();
-    await expect(out.getByRole('list', { name: /^Left out/ })).toContainText('Main: a chart');
+    await expect(out.getByRole('list', { name: /^Left out/ })).toContainText('Main, the whole of it: a chart');
     await out.getByRole('radio', { name: 'PLCopen XML (TC6)' }).click();
     await expect(out.getByRole('status')).toHaveText('All of the program is in the file.');
     const [file] = await Promise.all([
