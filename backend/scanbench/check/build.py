@@ -202,6 +202,7 @@ class Checker:
         self.programs = placed_programs(self.declarations, self.globals, self.plant.holds)
         self._declare_pous()
         self.declarations.declare_types()
+        self.declarations.later.tell()
         if Allowance.LIFE in self.dialect.allows:
             self.life = Life(self.report, self.declarations, self.pous, self.globals, self._scope)
             self.pous.life = self.life.declare()
@@ -278,7 +279,8 @@ class Checker:
     def _constant(self, node: tree.Expression, type: Type | None) -> Const:
         """A constant expression among the declarations."""
         owners = tuple(reversed(self.declarations.owners))
-        scope = Scope("", self.globals, constants=owners, space=self.declarations.names.space)
+        space, later = self.declarations.names.space, self.declarations.later
+        scope = Scope("", self.globals, constants=owners, later=later, space=space)
         return constant(body_of(self.report, self.declarations, self.pous, scope, None), node, type)
 
     def _declare_pous(self) -> None:

@@ -78,6 +78,14 @@ class Report:
             self.uses, self.written, self.lent, self.borrowed = names
             self._told, self._near = known
 
+    def add(self, part: "Report") -> None:
+        """Takes over what was met apart, which has no sites."""
+        self.problems += part.problems
+        self.uses += part.uses
+        self.written += part.written
+        self.lent += part.lent
+        self.borrowed += part.borrowed
+
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
         told = set(self.problems)

@@ -105,9 +105,12 @@ def _after_point(reading: Reading, around: Around | None, owner: str) -> Iterato
     if isinstance(types.get(key), Enumeration):
         yield from _values(key, types[key])
     prefix = f"{key}."
+    members = reading.project.checker.globals.members
     for alias in reading.project.checker.pous.aliases:
         if alias.startswith(prefix):
-            member = reading.project.checker.globals.members[reading.project.checker.pous.aliases[alias].upper()]
+            member = members.get(reading.project.checker.pous.aliases[alias].upper())
+            if member is None:  # its declaration is wrong
+                continue
             yield Item(
                 member.name.rpartition(".")[2],
                 "variable",

@@ -11,7 +11,7 @@ from scanbench.check.body.enumerations import enumeration_value, is_value_name, 
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.instructions import calculated, with_moments
-from scanbench.check.body.lenient import BITS, inverted, negative
+from scanbench.check.body.lenient import BITS, inverted, literal_inverted, negative
 from scanbench.check.body.literals import literal
 from scanbench.check.body.logix_texts import with_texts
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
@@ -204,7 +204,8 @@ def _unary(body: Body, node: tree.UnaryOp, wanted: Type | None) -> Expr:
             return fold.unary("not", type, operand)
         if is_untyped(operand) and isinstance(wanted, Elementary) and wanted.kind in (Kind.BOOL, Kind.BITS):
             return fold.unary("not", wanted, coerce(body, operand, wanted, node.span, "The operand"))
-        if (bits := inverted(body, operand, node.span)) is not None:
+        bits = inverted(body, operand, node.span) or literal_inverted(body, operand, wanted, node.span)
+        if bits is not None:
             return bits
         raise body.report.reject(
             "T002", f"NOT needs BOOL or a bit string, not {settle(operand).type}.", node.operand.span

@@ -111,11 +111,8 @@ def _make(
     result = None if declaration.result is None else _settled(declaration.result, types)
     made = replace(declaration, sections=sections, result=result)
     with body.declarations.names.within(Space(declaration.namespace, declaration.using)):
-        owners, body.declarations.owners = body.declarations.owners, []
-        try:
+        with body.declarations.later.under(()):
             own = frame(body.declarations, made, Record(key, Kind.BLOCK))
-        finally:
-            body.declarations.owners = owners
     if _generic_name(declaration.result) and result is declaration.result:
         raise Rejected
     return Instance(called_pou(key, made, own), made)

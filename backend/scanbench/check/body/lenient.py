@@ -28,7 +28,7 @@ from scanbench.program.types import (
     Type,
     base_of,
 )
-from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, wrap
 
 INTEGRAL = (*WHOLE, Kind.BITS)
 CALCULATIONS = ("add", "sub", "mul", "div", "mod")
@@ -253,6 +253,47 @@ def shifted_with_sign(body: Body, name: str, expr: Expr, count: Expr, span: Span
     negative = fold.compare("lt", BOOL, Load(kept), Const(type, 0))
     chosen = intrinsic("SEL", bits, (negative, intrinsic(name, bits, (plain, count)), ones))
     return Sequence((Assign(kept, expr, span),), fold.convert(type, chosen))
+
+
+def literal_shifted(body: Body, name: str, expr: Expr, count: Expr, span: Span) -> Const | None:
+    """A shift of a number without a type, where the dialect has that: such a number has the smallest type that holds it
+    (TwinCAT and CODESYS, typed literals; Machine Expert, SHL), so what depends on how many bits that has is refused."""
+    if not isinstance(expr, Const) or expr.type != ANY_INT or not may(body, Allowance.INTEGER_BITS):
+        return None
+    number, sizes = int(expr.value), [size for size in BITS if int(expr.value) < 1 << 8 * size]
+    if number < 0 or not sizes:
+        return None
+    types = [ELEMENTARY[BITS[size]] for size in sizes]
+    found = [intrinsic(name, type, (Const(type, number), count)) for type in types]
+    values = {each.value if isinstance(each, Const) else None for each in found}
+    if len(values) > 1 or None in values:
+        raise body.report.reject(
+            "T002", f"`{name}` of the number {number}: {body.dialect.title} takes it as {types[0]}, the smallest type that holds it, "
+            f"so bits may be lost that are wanted here. Write its type, e.g. `DWORD#{number}`.", span,
+        )  # fmt: skip
+    what = f"`{name}` works on the bits of the number {number}"
+    used(body, Allowance.INTEGER_BITS, span, what, f"`{types[0]}_TO_INT({name}({types[0]}#{number}, ...))`")
+    return Const(ANY_INT, next(value for value in values if value is not None))
+
+
+def literal_inverted(body: Body, expr: Expr, wanted: Type | None, span: Span) -> Const | None:
+    """NOT of a number without a type: with 250 and -6 for `NOT 5`, only a type of as many bits tells what it is."""
+    if not isinstance(expr, Const) or expr.type != ANY_INT or not may(body, Allowance.INTEGER_BITS):
+        return None
+    number, made = int(expr.value), None
+    smallest = next((size for size in BITS if number < 1 << 8 * size), 0)
+    if number < 0:
+        made = Const(ANY_INT, ~number)
+    elif isinstance(wanted, Elementary) and wanted.kind in WHOLE and wanted.size == smallest:
+        made = Const(base_of(wanted), wrap(~number, base_of(wanted)))
+    if made is None:
+        raise body.report.reject(
+            "T002", f"NOT of the number {number}: {body.dialect.title} takes it as the smallest type that holds it; whether that has a "
+            f"sign is not documented. Write its type, e.g. `INT#{number}`.", span,
+        )  # fmt: skip
+    instead = f"`WORD_TO_INT(NOT WORD#{number})`"
+    used(body, Allowance.INTEGER_BITS, span, f"`NOT` works on the bits of the number {number}", instead)
+    return made
 
 
 def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:

@@ -63,7 +63,14 @@ def qualified_place(body: Body, node: tree.MemberOf) -> Found | None:
         if named_itself(node.owner, word):
             return _own_member(body, node, word)
     full = qualified_variable(body, node)
-    return None if full is None else declared(body, full, node.span)
+    if full is None:
+        return None
+    scope = body.scope  # a variable of the POU with the same name is not meant
+    body.scope = replace(scope, frame=None, instance=None, externals={}, kept={}, constants=())
+    try:
+        return declared(body, full, node.span)
+    finally:
+        body.scope = scope
 
 
 def qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
@@ -103,7 +110,7 @@ def variable(body: Body, name: str, span: Span) -> Found:
     place, member = declared(body, name, span)
     if body.pous.ambiguous and member is not None and body.scope.globals.members.get(name.upper()) is member:
         choices = body.pous.ambiguous.get(name.upper())
-        if choices:
+        if choices and f"{body.scope.space.globals_of}.{name}".upper() not in map(str.upper, choices):
             raise body.report.reject("T001", f"`{name}` may be {' or '.join(choices)}; write which.", span)
     if member is not None and member.access == "PRIVATE":
         _not_of_base(body, member, span)

@@ -129,6 +129,10 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
         count = integer(body, body.expression(count_tree), count_tree.span, name)
         value, type, result = whole
         return fold.convert(result, standard_fold.intrinsic(row.intrinsic, type, (value, count)))
+    count = integer(body, body.expression(count_tree), count_tree.span, name)
+    literal = literal_shifted(body, row.intrinsic, bits, count, bits_tree.span)
+    if literal is not None:
+        return literal
     given = settle(bits).type
     if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS or not bits.type.size:
         hint = ""
@@ -136,7 +140,6 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
             same = bits_of(given)
             hint = f" Convert it with {given}_TO_{same}, or write {same}#..."
         raise body.report.reject("T002", f"`{name}` needs a bit string, not {given}.{hint}", bits_tree.span)
-    count = integer(body, body.expression(count_tree), count_tree.span, name)
     return standard_fold.intrinsic(row.intrinsic, bits.type, (bits, count))
 
 
@@ -196,7 +199,8 @@ def _not(body: Body, node: tree.Call, value: Expr, wanted: Type | None) -> Expr:
     value = settle(value) if wanted is None else value
     if isinstance(wanted, Elementary) and wanted.kind is Kind.BITS and isinstance(value, Const):
         value = coerce(body, value, wanted, node.span, "`IN`")
-    if (made := inverted(body, value, node.span)) is not None:
+    made = inverted(body, value, node.span) or literal_inverted(body, value, wanted, node.span)
+    if made is not None:
         return made
     if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.BOOL, Kind.BITS):
         raise body.report.reject("T002", f"`NOT` needs BOOL or a bit string, not {settle(value).type}.", node.span)

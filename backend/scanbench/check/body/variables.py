@@ -52,8 +52,15 @@ def undeclared(body: Body, name: str, span: Span) -> Rejected:
     upper = name.upper()
     if name == NOTHING or upper in body.unmade:  # reported
         return Rejected()
-    if {(owner, upper) for owner in (body.scope.pou.upper(), "GLOBAL")} & body.declarations.broken:
+    constants = body.scope.constants
+    owners = (body.scope.pou.upper(), "GLOBAL", *(each.name.upper() for each in constants))
+    if {(owner, upper) for owner in owners} & body.declarations.broken:
         return Rejected()
+    if body.scope.later is not None:
+        keys = (upper, *body.scope.space.candidates(upper))
+        why = body.scope.later.why((*constants, body.scope.globals), keys, name, span)
+        if why is not None:
+            return why
     if upper in body.pous.functions:
         return body.report.reject("T010", f"`{name}` is a FUNCTION; call it with `{name}(...)`.", span)
     block = body.declarations.block_trees.get(upper)

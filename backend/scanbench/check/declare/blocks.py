@@ -1,11 +1,13 @@
 """PROGRAM, FUNCTION_BLOCK, CLASS and INTERFACE -> the variables of an instance."""
 
+from functools import partial
+
 from scanbench.check.declare.creations import MADE, lives
 from scanbench.check.declare.declarations import TYPE_NAMES, Declarations
 from scanbench.check.declare.kept import declare_kept, is_kept
+from scanbench.check.declare.later import ToDeclare
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import qualified
-from scanbench.check.declare.section_order import constants_first
 from scanbench.check.dialect import Allowance
 from scanbench.program.origin import in_library
 from scanbench.program.types import ULINT, Kind, Member, Record, Section
@@ -19,8 +21,8 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
     declared.inherit(record, declaration)
     if Allowance.LIFE in declared.dialect.allows and lives(declaration):
         _remembers(record, declaration)
-    copied = _copies(declared, declaration)
-    for section in constants_first(declaration.sections):
+    copied, coming = _copies(declared, declaration), list[ToDeclare]()
+    for section in declaration.sections:
         kind = Section(section.keyword)
         if kind in (Section.TEMP, Section.EXTERNAL) or (section.kept == "VAR_STAT" and is_kept(declared, section)):
             continue
@@ -30,13 +32,11 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
         if declaration.kind == "program" and kind is Section.IN_OUT:
             declared.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)
             continue
+        constant = "CONSTANT" in section.qualifiers
         for variable in section.variables:
-            by_value = copied and kind is Section.IN_OUT and not _keeps_state(declared, variable.type)
-            member = declare(declared, record, variable, kind, "CONSTANT" in section.qualifiers, by_value)
-            if member is not None:
-                member.access = section.access if kind is Section.VAR else "PUBLIC"
-                member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
-                member.non_retain = "NON_RETAIN" in section.qualifiers
+            do = partial(_variable, declared, record, section, variable, copied)
+            coming.append((variable.name, constant, do, None))
+    declared.later.declare(record, coming)
     for method in declaration.methods:
         declare_kept(declared, record, method)
     if any((record.name.upper(), key) in declared.computed for key in record.members if declared.computed):
@@ -49,6 +49,18 @@ def _remembers(record: Record, declaration: tree.PouDeclaration) -> None:
     """An instance knows whether it was initialised."""
     if MADE.upper() not in record.members:
         record.place(Member(MADE, ULINT, Section.VAR, declaration.span, hidden=True, non_retain=True))
+
+
+def _variable(
+    declared: Declarations, record: Record, section: tree.VariableSection, variable: tree.Variable, copied: bool
+) -> None:
+    kind = Section(section.keyword)
+    by_value = copied and kind is Section.IN_OUT and not _keeps_state(declared, variable.type)
+    member = declare(declared, record, variable, kind, "CONSTANT" in section.qualifiers, by_value)
+    if member is not None:
+        member.access = section.access if kind is Section.VAR else "PUBLIC"
+        member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+        member.non_retain = "NON_RETAIN" in section.qualifiers
 
 
 def _copies(declared: Declarations, declaration: tree.PouDeclaration) -> bool:

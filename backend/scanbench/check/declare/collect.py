@@ -2,15 +2,16 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from functools import partial
 from typing import TypedDict
 
 from scanbench.check.context import Report
 from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.later import ToDeclare
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
 from scanbench.check.declare.rewritten import inputs_of, overloaded_in, rewritten
 from scanbench.check.declare.scopes import Pous
-from scanbench.check.declare.section_order import by_need
 from scanbench.check.dialect import Allowance, said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.check.standard.library import library
@@ -180,15 +181,21 @@ def globals_of(configuration: tree.Configuration) -> tuple[tree.VariableSection,
 
 
 def declare_globals(parsed: list[tree.File], variables: Record, declarations: Declarations, pous: Pous) -> None:
-    """Declares constants first, as the bounds of other variables may use them."""
+    """Declares constants first, as the bounds of other variables may use them; which of them first, says who needs whom."""
     sections = global_sections(parsed)
     kept = _Lists(declarations, pous)
-    constants = [(each, variable) for each in sections if "CONSTANT" in each.qualifiers for variable in each.variables]
-    others = [(each, variable) for each in sections if "CONSTANT" not in each.qualifiers for variable in each.variables]
-    for section, variable in (*by_need(constants, declarations.type_trees), *others):
-        using = (*section.using, *((LIBRARY,) if library_of_file(section.span.file) else ()))
-        with declarations.names.within(Space(section.namespace, using)):
-            kept.declare(variables, section, variable, "CONSTANT" in section.qualifiers)
+    coming: list[ToDeclare] = []
+    for constant in (True, False):
+        for section in sections:
+            if ("CONSTANT" in section.qualifiers) != constant:
+                continue
+            using = (*section.using, *((LIBRARY,) if library_of_file(section.span.file) else ()))
+            space = Space(section.namespace, using, section.list_name)
+            for variable in section.variables:
+                name, own = kept.name_of(section, variable)
+                do = partial(kept.declare, variables, section, replace(variable, name=name), own)
+                coming.append((name, constant, do, space))
+    declarations.later.declare(variables, coming)
 
 
 @dataclass(slots=True)
@@ -200,19 +207,25 @@ class _Lists:
     lists: dict[str, str] = field(default_factory=dict)
     """The list that a variable came from, by the name it is kept under."""
 
-    def declare(
-        self, variables: Record, section: tree.VariableSection, variable: tree.Variable, constant: bool
-    ) -> None:
-        """Adds a global variable under its full name."""
+    def name_of(self, section: tree.VariableSection, variable: tree.Variable) -> tuple[str, str]:
+        """The name that it is kept under, and its name with that of its list, if it is in one."""
         name = qualified(section.namespace, variable.name)
-        key, own = name.upper(), f"{section.list_name}.{variable.name}"
-        if section.list_name and key in variables.members and self.lists.get(key, "") not in ("", section.list_name):
-            self.pous.ambiguous.setdefault(key, [f"{self.lists[key]}.{variable.name}"]).append(own)
+        if not section.list_name:
+            self.lists.setdefault(name.upper(), "")
+            return name, ""
+        own = f"{section.list_name}.{variable.name}"
+        if self.lists.setdefault(name.upper(), section.list_name) not in ("", section.list_name):
             name = own
-        member = declare(self.declarations, variables, replace(variable, name=name), Section.GLOBAL, constant)
-        if member is None:
-            return
-        member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
-        self.lists.setdefault(name.upper(), section.list_name)
-        if section.list_name:
-            self.pous.aliases[own.upper()] = name
+        self.pous.aliases[own.upper()] = name
+        return name, own
+
+    def declare(self, variables: Record, section: tree.VariableSection, variable: tree.Variable, own: str) -> None:
+        """Adds a global variable, which has its full name."""
+        if own and own == variable.name:
+            name = qualified(section.namespace, own.rpartition(".")[2])
+            first = f"{self.lists[name.upper()]}.{own.rpartition('.')[2]}"
+            self.pous.ambiguous.setdefault(name.upper(), [first]).append(own)
+        constant = "CONSTANT" in section.qualifiers
+        member = declare(self.declarations, variables, variable, Section.GLOBAL, constant)
+        if member is not None:
+            member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))

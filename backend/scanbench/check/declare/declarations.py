@@ -8,6 +8,7 @@ from typing import TypeAlias
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
+from scanbench.check.declare.later import Later
 from scanbench.check.declare.names import Names, Space, qualified, written
 from scanbench.check.declare.vendor_types import instead_of, vendor_type
 from scanbench.check.dialect import Dialect
@@ -113,7 +114,7 @@ class Declarations:
     broken: set[tuple[str, str]] = field(default_factory=set)
     """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
-    """The records under declaration: their bounds and initial values can use constants declared above."""
+    """The records under declaration: their bounds and initial values can use their constants."""
     looked_at: frozenset[str] = frozenset()
     """Names of variables that have a note, in upper case; see `notes`."""
     dialect: Dialect = IEC
@@ -135,6 +136,7 @@ class Declarations:
     """What declarations give to the initialisation of blocks, where the dialect has that."""
     names: Names = field(init=False)
     values: EnumerationValues = field(init=False)
+    later: Later = field(init=False)
     shells: dict[str, Record] = field(default_factory=dict)
     """Structures and blocks that were asked for, complete or not: a reference may refer to what is still open."""
     _pending: list[str] = field(default_factory=list)
@@ -145,6 +147,7 @@ class Declarations:
 
     def __post_init__(self) -> None:
         self.names = Names(self.report)
+        self.later = Later(self.report, self.names, self.owners)
         self.values = EnumerationValues(self.type_trees, self._value_type)
 
     def _value_type(self, key: str) -> Type:

@@ -1,13 +1,14 @@
 """Temporaries of blocks, variables of FUNCTIONs and methods -> frames."""
 
 from collections.abc import Iterator
+from functools import partial
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.kept import is_kept
+from scanbench.check.declare.later import ToDeclare
 from scanbench.check.declare.members import declare, default_of
 from scanbench.check.declare.names import qualified
-from scanbench.check.declare.section_order import constants_first
 from scanbench.check.dialect import Allowance, said
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
 from scanbench.syntax import tree
@@ -39,7 +40,8 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
         part = f".{declaration.kind}" if declaration.kind in ("get", "set") else ""
         record = Record(f"{this.name}.{declaration.name}{part}", Kind.STRUCT)
         record.place(Member("THIS", this, Section.IN_OUT, declaration.span, hidden=True))
-    for section in constants_first(declaration.sections):
+    coming: list[ToDeclare] = []
+    for section in declaration.sections:
         kind = Section(section.keyword)
         if is_kept(declared, section) and (function or section.kept == "VAR_STAT"):
             continue
@@ -51,6 +53,7 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
         if kind is Section.GLOBAL:
             declared.report.error("D008", "VAR_GLOBAL belongs outside of POUs.", section.span)
             continue
+        constant = "CONSTANT" in section.qualifiers
         for variable in section.variables:
             if variable.address is not None:
                 declared.report.error("D008", "A temporary variable has no address.", variable.span)
@@ -60,13 +63,9 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
             ):
                 declared.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                 continue
-            constant = "CONSTANT" in section.qualifiers
-            if function and kind in (Section.INPUT, Section.OUTPUT) and isinstance(variable.type, tree.OpenArraySpec):
-                _open_array(declared, record, variable, output=kind is Section.OUTPUT)
-                continue
-            member = declare(declared, record, variable, kind, constant)
-            if member and kind is not Section.IN_OUT and has_instance(member.type):
-                _temporary_block(declared, member, HOLDERS.get(declaration.kind, "VAR_TEMP"))
+            do = partial(_variable, declared, record, declaration, section, variable)
+            coming.append((variable.name, constant, do, None))
+    declared.later.declare(record, coming)
     if function and declaration.kind != "set" and declaration.result is not None:
         try:
             result = Member(declaration.name, declared.type_of(declaration.result), Section.RESULT, declaration.span)
@@ -77,6 +76,22 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
             declared.broken.add((record.name.upper(), declaration.name.upper()))
     record.close()
     return record
+
+
+def _variable(
+    declared: Declarations,
+    record: Record,
+    declaration: tree.PouDeclaration,
+    section: tree.VariableSection,
+    variable: tree.Variable,
+) -> None:
+    kind, called = Section(section.keyword), declaration.kind in CALLED
+    if called and kind in (Section.INPUT, Section.OUTPUT) and isinstance(variable.type, tree.OpenArraySpec):
+        _open_array(declared, record, variable, output=kind is Section.OUTPUT)
+        return
+    member = declare(declared, record, variable, kind, "CONSTANT" in section.qualifiers)
+    if member and kind is not Section.IN_OUT and has_instance(member.type):
+        _temporary_block(declared, member, HOLDERS.get(declaration.kind, "VAR_TEMP"))
 
 
 def _temporary_block(declared: Declarations, member: Member, where: str) -> None:

@@ -23,6 +23,8 @@ class Space:
 
     namespace: str = ""
     using: tuple[str, ...] = ()
+    globals_of: str = ""
+    """The list of global variables whose declarations these are; it sees its own first."""
 
     def around(self) -> list[str]:
         """The namespace and those around it, the nearest first, in upper case."""
@@ -31,11 +33,12 @@ class Space:
 
     def candidates(self, key: str) -> list[str]:
         """What the name may mean in full, the nearest first."""
+        own = [f"{self.globals_of}.{key}".upper()] if self.globals_of else []
         if not self.namespace and not self.using:
-            return [key]
+            return [*own, key]
         around = self.around()
         used = [f"{outer}.{using}.{key}".upper().lstrip(".") for using in self.using for outer in (*around, "")]
-        return [*(f"{outer}.{key}" for outer in around), *used, key]
+        return [*own, *(f"{outer}.{key}" for outer in around), *used, key]
 
 
 @dataclass(slots=True)

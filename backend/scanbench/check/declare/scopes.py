@@ -4,6 +4,7 @@ import struct
 from dataclasses import dataclass, field
 
 from scanbench.check.declare.classes import Classes
+from scanbench.check.declare.later import Later
 from scanbench.check.declare.names import Space
 from scanbench.check.life.code import Code
 from scanbench.plcmodel.model import Who
@@ -36,6 +37,8 @@ class Scope:
     externals: dict[str, Member] = field(default_factory=dict)
     constants: tuple[Record, ...] = ()
     """Records under declaration, for constant expressions."""
+    later: Later | None = None
+    """What of these, and of the global variables, is still to be declared."""
     this: Place | None = None
     """Slot of THIS, in a method: through it the body reaches the variables of the instance."""
     space: Space = field(default_factory=Space)
@@ -53,6 +56,8 @@ class Scope:
         """The member, what its offset counts from, and who owns it."""
         key = name.upper()
         for owner in self.constants:
+            if self.later is not None:
+                self.later.ask(owner, key)
             if key in owner.members:
                 return owner.members[key], Base.SELF, owner
         if self.frame is not None and key in self.frame.members:
@@ -64,6 +69,8 @@ class Scope:
         if key in self.externals:
             return self.externals[key], Base.IMAGE, self.globals
         for full in self.space.candidates(key):
+            if self.later is not None:
+                self.later.ask(self.globals, full)
             if full in self.globals.members:
                 return self.globals.members[full], Base.IMAGE, self.globals
         for owner in (*(() if self.constants else (SYSTEM,)), *self.system):

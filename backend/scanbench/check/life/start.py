@@ -1,7 +1,7 @@
 """The code that initialises the blocks in a variable, or looks which of them are new or changed after a program change."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
 
 from scanbench.check.body.arguments import invoke
 from scanbench.check.body.context import Body
@@ -11,7 +11,6 @@ from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
-from scanbench.check.declare.section_order import named_variables
 from scanbench.check.declare.start_references import own_references, refers
 from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
@@ -97,7 +96,7 @@ class Writer:
         """What is declared further down has no value yet in the vendors' tools, or has it already: their documentation does not say."""
         order = [*record.members]
         below = set(order[order.index(member.name.upper()) + 1 :])
-        for name in named_variables(node):
+        for name in _named_variables(node):
             if name.upper() in below and not record.members[name.upper()].constant:
                 self.body.report.error(
                     "D004",
@@ -332,3 +331,17 @@ def chain(owner: Class | None) -> list[Class]:
         found.append(owner)
         owner = owner.base
     return found[::-1]
+
+
+def _named_variables(node: object) -> Iterator[str]:
+    """The names of variables in an expression, without those of their members."""
+    if isinstance(node, tree.Name):
+        yield node.name
+    elif isinstance(node, tree.MemberOf):
+        yield from _named_variables(node.owner)
+    elif isinstance(node, tuple):
+        for each in node:
+            yield from _named_variables(each)
+    elif is_dataclass(node) and not isinstance(node, Span | type):
+        for each in fields(node):
+            yield from _named_variables(getattr(node, each.name))
