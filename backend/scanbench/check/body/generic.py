@@ -110,9 +110,9 @@ def _make(
     )
     result = None if declaration.result is None else _settled(declaration.result, types)
     made = replace(declaration, sections=sections, result=result)
-    with body.declarations.names.within(Space(declaration.namespace, declaration.using)):
-        with body.declarations.later.under(()):
-            own = frame(body.declarations, made, Record(key, Kind.BLOCK))
+    declared = body.declarations
+    with declared.names.within(Space(declaration.namespace, declaration.using)), declared.later.under(()):
+        own = frame(declared, made, Record(key, Kind.BLOCK))
     if _generic_name(declaration.result) and result is declaration.result:
         raise Rejected
     return Instance(called_pou(key, made, own), made)

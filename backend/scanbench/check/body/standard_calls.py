@@ -7,7 +7,14 @@ from scanbench.check.body import conversions, fold, standard_fold, wide
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.lenient import bits_of, inverted, shifted, shifted_with_sign
+from scanbench.check.body.lenient import (
+    bits_of,
+    inverted,
+    literal_inverted,
+    literal_shifted,
+    shifted,
+    shifted_with_sign,
+)
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel

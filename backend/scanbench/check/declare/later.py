@@ -58,7 +58,9 @@ class Later:
     def declare(self, owner: Record, variables: Iterable[ToDeclare]) -> None:
         """Declares each in their order, but for constants that another one needs before."""
         around = tuple(self.owners)
-        all_of_them = [Coming(name, fixed, do, space or self.names.space, around) for name, fixed, do, space in variables]
+        all_of_them = [
+            Coming(name, fixed, do, space or self.names.space, around) for name, fixed, do, space in variables
+        ]
         keys = {(id(owner), each.name.upper()): each for each in reversed(all_of_them)}  # of two, the first is meant
         self._known |= keys
         try:
