@@ -14,6 +14,7 @@ from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.programs import LoadedPrograms
 from scanbench.testing.attempts import Attempts
+from scanbench.testing.play import nothing_expected
 from scanbench.testing.project import BrokenProject, Project
 from scanbench.testing.shrink import shrink
 from scanbench.wire.codec import ENTRIES
@@ -21,6 +22,9 @@ from scanbench.wire.codec import ENTRIES
 scenario = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Scenario files: steps at scans, and what is to hold."
 )
+
+NOTHING_EXPECTED = 3
+"""Exit code of scenarios that were played, and expect nothing."""
 
 
 @scenario.command()
@@ -47,16 +51,18 @@ def _programs(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
 def run_scenarios(
     paths: list[Path] = typer.Argument(metavar="FILE", help="Scenario files."),
 ) -> None:  # fmt: skip
-    """Play scenarios. Exit 0 when all of them were as expected, 1 when one was not, 2: wrong usage."""
-    failures = 0
+    """Play scenarios. Exit 0 when all of them were as expected, 1 when one was not, 2: wrong usage, 3: one expects nothing."""
+    failures, empty = 0, 0
     for path in paths:
         found = _read(path)
         with Attempts(_project(path, found)) as attempt:
             failed = attempt(found)
-        typer.echo(f"{path}: {'as expected' if failed is None else failed.message}")
+        said = "as expected" if found.expect else nothing_expected(found)
+        typer.echo(f"{path}: {said if failed is None else failed.message}")
         failures += failed is not None
-    if failures:
-        raise typer.Exit(1)
+        empty += not found.expect
+    if failures or empty:
+        raise typer.Exit(1 if failures else NOTHING_EXPECTED)
 
 
 @scenario.command("shrink")

@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from scanbench.history.scenario import ENDING, BadScenario, project_of, read_scenario
-from scanbench.testing.play import play
+from scanbench.testing.play import nothing_expected, play
 from scanbench.testing.plc import Plc, PlcFailure
 from scanbench.testing.plugin import named_project, read_project
 
@@ -44,6 +44,8 @@ class ScenarioItem(pytest.Item):
         failed = play(self.plc, scenario)
         if failed is not None:
             raise PlcFailure(failed.message)
+        if not scenario.expect:
+            pytest.skip(nothing_expected(scenario))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
         """The sentence, without a traceback: there is no code of the user's."""

@@ -31,6 +31,11 @@ def play(plc: Plc, scenario: Scenario) -> Failed | None:
             return failed
 
 
+def nothing_expected(scenario: Scenario) -> str:
+    """What is to be said of a scenario that went through and has no expectation: there is nothing that it was looked at for."""
+    return f"nothing is expected: {scenario.scans} scans went by without a trap; write what is to hold below `expect:`"
+
+
 class _Player:
     def __init__(self, plc: Plc, scenario: Scenario) -> None:
         self._plc, self._scenario = plc, scenario

@@ -16,6 +16,7 @@ from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.header import Mode
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import LoadedPrograms
@@ -188,19 +189,27 @@ class Plc:
         return self.scan - begin
 
     def always(self, scans: int, condition: str) -> None:
-        """Runs so many scans, after each of which the condition holds."""
+        """Runs so many scans, at least 1, after each of which the condition holds. `PlcFailure` too in mode PROGRAM, where no program runs."""
         self._watch(scans, condition, f"NOT ({condition})", "did not hold any more")
 
     def never(self, scans: int, condition: str) -> None:
-        """Runs so many scans, after none of which the condition holds."""
+        """Runs so many scans, at least 1, after none of which the condition holds. `PlcFailure` too in mode PROGRAM, where no program runs."""
         self._watch(scans, condition, condition, "held")
 
     def _watch(self, scans: int, condition: str, wrong: str, what: str) -> None:
-        begin = self.scan
+        if scans < 1:
+            raise PlcRefused(f"`{condition}` is to be looked at after {scans} scans, so never; give 1 or more.")
+        begin, header = self.scan, self._resource.header
+        stopped = header.mode is Mode.PROGRAM
         if self._run_until(self._condition(wrong), scans):
             ran = self.scan - 1
             raise PlcFailure(
                 f"`{condition}` {what} after scan {ran}, the {ran - begin + 1}. of {scans}. {_values(self._resource, condition)}"
+            )
+        if stopped and header.mode is Mode.PROGRAM:
+            raise PlcFailure(
+                f"`{condition}` was not tested: the PLC is in mode PROGRAM, so the program ran in none of the {scans} scans "
+                f"{begin} to {self.scan - 1}."
             )
 
     def _run_until(self, condition: Condition | None, scans: int) -> bool:

@@ -61,6 +61,20 @@ def test_forces_modes_and_restarts(plc):
     plc.run()
     assert plc.value("Main.n") == 1
 
+@pytest.mark.parametrize("scans", [0, -5])
+def test_no_scan_shows_nothing(plc, scans):
+    from scanbench.testing.plc import PlcRefused
+    for look in (plc.always, plc.never):
+        with pytest.raises(PlcRefused, match=f"after {scans} scans, so never"):
+            look(scans, "Main.n >= 0")
+
+def test_a_program_that_does_not_run_shows_nothing(plc):
+    from scanbench.testing.plc import PlcFailure
+    plc.mode("PROGRAM")
+    for look, condition in ((plc.always, "NOT motor"), (plc.never, "motor")):
+        with pytest.raises(PlcFailure, match="the PLC is in mode PROGRAM, so the program ran in none of the 50 scans"):
+            look(50, condition)
+
 def test_refused(plc):
     from scanbench.testing.plc import PlcRefused
     for wrong, why in ((lambda: plc.read("moter"), "motor"), (lambda: plc.write("A400", 1), "read-only"),
@@ -98,7 +112,7 @@ def folder(pytester: pytest.Pytester) -> Path:
 @pytest.mark.parametrize("engine", ["native", "reference", "both"])
 def test_what_holds_passes(pytester: pytest.Pytester, folder: Path, engine: str) -> None:
     pytester.makepyfile(test_good=GOOD)
-    pytester.runpytest_inprocess("--scanbench-engine", engine).assert_outcomes(passed=5)
+    pytester.runpytest_inprocess("--scanbench-engine", engine).assert_outcomes(passed=8)
     assert not (folder / "scanbench-runs").exists()
 
 

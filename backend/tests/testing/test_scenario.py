@@ -176,6 +176,15 @@ def test_a_scenario_is_recorded_from_a_run_played_and_shortened(folder: Path, tm
     assert [each.do for each in read_scenario(short.stdout).steps] == ["write level=7"]
 
 
+@pytest.mark.parametrize("expect", ["", "expect: []\n"])
+def test_a_scenario_that_expects_nothing_says_so(folder: Path, expect: str) -> None:
+    file = folder / "empty.scenario.yaml"
+    file.write_text(f"scans: 5\n{expect}")
+    played = scanbench("scenario", "run", str(file))
+    said = f"{file}: nothing is expected: 5 scans went by without a trap; write what is to hold below `expect:`\n"
+    assert (played.returncode, played.stdout) == (3, said)
+
+
 def test_a_recorded_line_cut_and_what_a_client_wrote_are_steps_that_play(
     attempt: Callable[[Scenario], Failed | None],
 ) -> None:
