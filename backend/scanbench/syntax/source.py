@@ -2,6 +2,7 @@
 
 import codecs
 from bisect import bisect_right
+from contextlib import suppress
 
 from scanbench.problems import Span
 
@@ -130,21 +131,26 @@ class Stretch(Span):
 
 
 def decode(data: bytes) -> str:
-    """Text of a file: UTF-8 with or without BOM, else Latin-1, as older tools export it. Line ends become LF."""
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.removeprefix(codecs.BOM_UTF8).decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    """Text of a file: UTF-8, UTF-16, else Windows-1252 or Latin-1, as older tools export it. Line ends become LF."""
+    mark, encoding = _encoding(data)
+    return data[len(mark) :].decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _encoding(data: bytes) -> tuple[bytes, str]:
+    """The byte order mark that the bytes begin with, and the encoding of the rest."""
+    marks = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
+    mark = next((each for each in marks if data.startswith(each)), b"")
+    unmarked = {0: "utf-16-be", 1: "utf-16-le"}.get(data[:2].find(0), "utf-8")  # its first character is one of ASCII
+    for encoding in (marks.get(mark, unmarked), "cp1252"):
+        with suppress(UnicodeDecodeError):
+            data[len(mark) :].decode(encoding)
+            return mark, encoding
+    return mark, "latin-1"
 
 
 def encoded(text: str, like: bytes) -> bytes:
     """A text with LF as bytes, in the encoding and with the line ends of the file that these bytes are."""
-    end = "\r\n" if b"\r\n" in like else "\r" if b"\r" in like and b"\n" not in like else "\n"
-    text = text.replace("\n", end)
-    mark = codecs.BOM_UTF8 if like.startswith(codecs.BOM_UTF8) else b""
-    try:
-        like.decode("utf-8")
-    except UnicodeDecodeError:
-        return mark + text.encode("latin-1")
-    return mark + text.encode("utf-8")
+    mark, encoding = _encoding(like)
+    was = like[len(mark) :].decode(encoding)
+    end = "\r\n" if "\r\n" in was else "\r" if "\r" in was and "\n" not in was else "\n"
+    return mark + text.replace("\n", end).encode(encoding)

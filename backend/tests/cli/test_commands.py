@@ -66,11 +66,25 @@ def test_a_folder_gives_every_program_file_in_it(tmp_path: Path) -> None:
     [
         "\ufeffPROGRAM Main\r\nVAR x : INT; END_VAR\r\nx := 1;\r\nEND_PROGRAM\r\n".encode(),
         "PROGRAM Main (* gr\xf6\xdfe *) END_PROGRAM".encode("latin-1"),
+        "\ufeffPROGRAM Main\r\nVAR gr\xf6\xdfe : INT; END_VAR\r\ngr\xf6\xdfe := 1;\r\nEND_PROGRAM\r\n".encode(
+            "utf-16-le"
+        ),
     ],
 )
 def test_check_reads_what_vendors_write(tmp_path: Path, text: bytes) -> None:
     (tmp_path / "a.st").write_bytes(text)
     assert scanbench("check", str(tmp_path)).returncode == 0
+
+
+def test_a_file_of_twincat_in_utf_16_is_read(tmp_path: Path) -> None:
+    text = (
+        '<?xml version="1.0" encoding="utf-16"?>\r\n<TcPlcObject Version="1.1.0.1"><POU Name="Main" Id="{1}"><Declaration>'
+        "<![CDATA[PROGRAM Main\r\nVAR n : INT; END_VAR]]></Declaration><Implementation><ST><![CDATA[n := 1;]]></ST></Implementation>"
+        "</POU></TcPlcObject>"
+    )
+    (tmp_path / "Main.TcPOU").write_bytes(text.encode("utf-16"))
+    result = scanbench("check", str(tmp_path))
+    assert result.returncode == 0, result.stdout
 
 
 def test_check_of_nothing_is_wrong_usage(tmp_path: Path) -> None:

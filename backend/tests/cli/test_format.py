@@ -39,10 +39,20 @@ def test_a_file_that_cannot_be_read_stays_as_it_is(tmp_path: Path) -> None:
     assert file.read_text() == "PROGRAM Main\nx := ;\nEND_PROGRAM\n"
 
 
-@pytest.mark.parametrize(("encoding", "mark"), [("utf-8", ""), ("utf-8", "\ufeff"), ("latin-1", "")])
+@pytest.mark.parametrize(
+    ("encoding", "mark"),
+    [
+        ("utf-8", ""),
+        ("utf-8", "\ufeff"),
+        ("utf-16-le", "\ufeff"),
+        ("utf-16-be", "\ufeff"),
+        ("utf-16-le", ""),
+        ("cp1252", ""),
+    ],
+)
 def test_a_file_keeps_its_encoding_and_its_line_ends(tmp_path: Path, encoding: str, mark: str) -> None:
     file = tmp_path / "main.st"
-    before, after = (f"{mark}// \xe9\n{text}".replace("\n", "\r\n").encode(encoding) for text in (UGLY, GOOD))
+    before, after = (f"{mark}// \xe9 \xdf\n{text}".replace("\n", "\r\n").encode(encoding) for text in (UGLY, GOOD))
     file.write_bytes(before)
     assert scanbench("format", str(file)).returncode == 0
     assert file.read_bytes() == after
