@@ -125,7 +125,10 @@ def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = Non
 
 def concluded(files: Sequence[Chunked], report: Report, program: Program | None, whole: bool = True) -> Checked:
     """What came out, in spans that do not move any more. A program that is not `whole` tells what it consists of, and is left out."""
-    found = [*(problem for file in files for problem in file.problems), *report.problems]
+    written = [problem for file in files for problem in file.problems]
+    found = [*written, *report.problems]
+    if any(each.severity is Severity.ERROR for each in written):  # what could not be read may be the program
+        found = [each for each in found if each.code != "D011"]
     problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
     problems = folded(problems)

@@ -8,7 +8,9 @@ from scanbench.syntax.source import Source
 
 HEAD = 4000
 """Characters at the beginning that say what a file is."""
-ROOT = re.compile(r"\s*(?:<\?[^>]*>\s*|<!--.*?-->\s*|<!DOCTYPE[^>]*>\s*)*<([A-Za-z_][\w.:-]*)([^>]*)", re.DOTALL)
+ROOT = re.compile(
+    r"\s*(?:<\?[^>]*>\s*|<!--.*?-->\s*|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>\s*)*<([A-Za-z_][\w.:-]*)([^>]*)", re.DOTALL
+)
 BINARY = ("PK\x03\x04", "\xd0\xcf\x11\xe0", "\ufffd\ufffd\x11\ufffd")
 """How archives begin, and the compound files of older tools; also where their bytes were no text."""
 ROOTS = {

@@ -265,8 +265,16 @@ def _at_label(c: Cursor) -> bool:
 def _for(c: Cursor) -> tree.Statement:
     start = c.take()
     variable = expression(c)
-    c.expect(":=", "after the control variable of the FOR")
-    first = expression(c)
+    if (
+        isinstance(variable, tree.BinaryOp) and variable.op == "eq" and c.texts[c.at].upper() == "TO"
+    ):  # `FOR i = 1 TO`, as in Basic
+        found = "`:=` expected after the control variable of the FOR, found `=`."
+        c.report("S003", found, variable.span)
+        first: tree.Expression = variable.right
+        variable = variable.left
+    else:
+        c.expect(":=", "after the control variable of the FOR")
+        first = expression(c)
     c.expect("TO", "after the start value of the FOR")
     last = expression(c)
     step = expression(c) if c.accept_word("BY") else None
