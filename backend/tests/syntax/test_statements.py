@@ -45,7 +45,7 @@ REFUSED = [
     ("x := 1 y := 2;", "S003 2:6 `;` expected at the end of the assignment, found `y`."),
     ("IF a THEN b := 1;", "S003 4:1 `END_IF` expected to close the IF of line 2, found `END_PROGRAM`."),
     ("END_IF;", "S003 2:1 `END_IF` without its beginning."),
-    ("FOR i = 1 TO 3 DO END_FOR", "S003 2:11 `:=` expected after the control variable of the FOR, found `TO`."),
+    ("FOR i = 1 TO 3 DO END_FOR", "S003 2:5 `:=` expected after the control variable of the FOR, found `=`."),
     ("CASE a b: x := 1; END_CASE", "S003 2:6 `OF` expected after the selector, found `b`."),
 ]
 
