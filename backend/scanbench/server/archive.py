@@ -37,6 +37,8 @@ LARGEST = 64 << 20
 """Bytes, packed or not."""
 MOST_FILES = 5000
 _NO_FILE_NAME = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
+NOTES_FILE = "ImportNotes.st"
+"""Of comments alone: what a project that was taken in lacks."""
 _WHEN = (1980, 1, 1, 0, 0, 0)
 """The same project makes the same bytes."""
 
@@ -131,6 +133,15 @@ def unpack(data: bytes) -> Archive:
         UnicodeError,
     ) as error:
         raise Refused(f"this is no zip file that can be read: {error}") from error
+
+
+def notes_file(archive: Archive) -> dict[str, str]:
+    """What is not in a project as it was in its archive, as a file that can be read later; none where all is."""
+    told = [*archive.notes, *(f"{path}: left out" for path in archive.left_out)]
+    if not told or NOTES_FILE in archive.files:
+        return {}
+    head = "What is not here as it was in the file from which this project was made. Delete this when nobody needs it."
+    return {NOTES_FILE: "".join(f"// {' '.join(each.split())}\n" for each in (head, *told))}
 
 
 def _of_foreign(made: Project) -> Archive:

@@ -8,7 +8,7 @@ from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
-from scanbench.server.archive import Archive, pack
+from scanbench.server.archive import Archive, notes_file, pack
 from scanbench.server.completed import completed
 from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
@@ -193,7 +193,7 @@ class Projects:
         """A project with the files of an archive, which are not built yet."""
         guessed = {} if archive.dialect == STRICT else {LANGUAGE_FILE: language_text(archive.dialect)}
         programs = await asyncio.to_thread(completed, {**guessed, **archive.files}, archive.twincat)
-        texts = programs | archive.panels
+        texts = programs | archive.panels | notes_file(archive)
         for path in texts:
             _check_path(path)
         for path, text in archive.panels.items():

@@ -57,6 +57,15 @@ def test_a_plcopen_file_becomes_a_project_that_runs(server: Server) -> None:
     assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
 
 
+def test_what_was_left_out_of_an_imported_project_can_be_read_later(server: Server) -> None:
+    line = (Path(__file__).parent.parent / "syntax" / "l5x" / "line.L5X").read_bytes()
+    project = _taken(server, "Logix", line)
+    told = server.http.get(f"/api/projects/{project}/files/ImportNotes.st").json()["text"]
+    assert "// MainProgram.Drawn: the routine Drawn is written in FBD; it is left out\n" in told
+    problems = server.http.post(f"/api/projects/{project}/check", json={"files": {}}).json()["problems"]
+    assert [each for each in problems if each["file"] == "ImportNotes.st"] == []
+
+
 def test_an_imported_project_has_the_dialect_of_its_files_and_a_packed_one_its_own(server: Server) -> None:
     pou = '<TcPlcObject><POU Name="Main"><Declaration><![CDATA[PROGRAM Main\nVAR w : WORD; END_VAR]]></Declaration>'
     pou += "<Implementation><ST><![CDATA[w := w + 1;]]></ST></Implementation></POU></TcPlcObject>"

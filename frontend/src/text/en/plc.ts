@@ -278,7 +278,7 @@ export const plc = {
   "picker.export.hint": "as it is saved",
   "newproject.archive.single":
     "{name} is one file of a program, and no project: create the project without it, then add it with Add files, above the explorer.",
-  "newproject.archive.notes": "What is not as it was",
+  "newproject.archive.notes": "What is not as it was (kept in the file ImportNotes.st)",
   "newproject.archive.model": "The project in the file is written for {model}.",
   "newproject.template": "Begin with",
   "newproject.template.empty": "An empty program",

@@ -276,7 +276,7 @@ export const plc: Record<keyof typeof english, string> = {
   "picker.export.hint": "保存済みの内容",
   "newproject.archive.single":
     "{name} はプログラムの一つのファイルで、プロジェクトではありません。これなしでプロジェクトを作成し、エクスプローラーの上の「ファイルの追加」で追加してください。",
-  "newproject.archive.notes": "元と異なる点",
+  "newproject.archive.notes": "元と異なる点（ファイル ImportNotes.st に保存）",
   "newproject.archive.model": "ファイルのプロジェクトは {model} 用です。",
   "newproject.template": "最初の内容",
   "newproject.template.empty": "空のプログラム",

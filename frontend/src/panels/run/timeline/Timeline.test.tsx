@@ -1,6 +1,7 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { grouped } from "../../../logic/format/numbers";
+import { saveScenario, useTimeline } from "../../../store/plc/timeline";
 import { box, button, pick, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { RUN } from "../../../testing/samples";
@@ -105,4 +106,27 @@ test("scans that a damaged run file lost are marked on the axis, and named besid
   server.say({ ...RUN, info: { ...(RUN.info as NonNullable<typeof RUN.info>), lost: [{ first: 400, until: 500 }] } });
   expect(await screen.findByTitle(name)).toHaveProperty("className", "lost");
   expect(screen.getByText(t("timeline.lost.short", { first: 400, last: 499 }))).toBeTruthy();
+});
+
+test("a wrong scan is gone from the field once a different scan is shown", async () => {
+  const { server, user } = await openTimeline();
+  const field = box(t("timeline.goto"));
+  await user.type(field, "nowhere{Enter}");
+  expect(alert()).not.toBeNull();
+  server.becomes(inPast(300));
+  await waitFor(() => expect(field).toHaveProperty("value", ""));
+  expect(alert()).toBeNull();
+});
+
+test("the page says which test was downloaded, and of how many scans", async () => {
+  const { server } = await openPage((server) => {
+    server.on("GET", "/instances/*/scenario", () => new Response("# a test\nscans: 120\n"));
+  });
+  URL.createObjectURL ??= () => "blob:";
+  URL.revokeObjectURL ??= () => undefined;
+  await saveScenario(null);
+  expect(useTimeline.getState()).toMatchObject({
+    refused: null,
+    made: `${server.instance.name}-120-scans.scenario.yaml`,
+  });
 });

@@ -60,11 +60,14 @@ export function ArchiveField({ dropped = null, onChoose }: Props) {
       />
       {found && <span className="hint">{`${dropped && !chosen ? `${dropped.name}: ` : ""}${says(found)}`}</span>}
       {found && found.notes.length > 0 && (
-        <ul className="hint notes" aria-label={t("newproject.archive.notes")}>
-          {found.notes.map((note) => (
-            <li key={note}>{note}</li>
-          ))}
-        </ul>
+        <>
+          <span className="hint">{t("newproject.archive.notes")}</span>
+          <ul className="hint notes" aria-label={t("newproject.archive.notes")}>
+            {found.notes.map((note) => (
+              <li key={note}>{note}</li>
+            ))}
+          </ul>
+        </>
       )}
       {refused && (
         <span className="hint bad" role="alert">
