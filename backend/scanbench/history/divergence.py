@@ -15,6 +15,7 @@ from scanbench.history.changes import Comparer, Moment, entered, moment_of, same
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence
 from scanbench.history.first_write import first_write
 from scanbench.history.left_out import LeftOut
+from scanbench.recording.gaps import Gap
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.replay import NOT_AS_RECORDED, replay
 from scanbench.runtime.command import Entry
@@ -47,18 +48,24 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
     if first >= end:
         raise Unreadable(f"the runs have no scan in common: {_scans(one)}, {_scans(other)}")
     gaps = [each for reader in (one, other) for each in reader.recording.gaps if first < each.until <= end]
-    last = max(gaps, key=lambda each: each.until, default=None)
-    if last is not None:
-        first = max(first, last.until)
-        if first >= end:
-            raise Unreadable(f"no scan can be compared that both runs have: {last}")
+    first, end, left = _between_gaps(first, end, gaps)
     try:
         found = _Comparison(one, other, first, end, on_progress).run()
-        if last is None:
-            return found
-        return replace(found, text=f"{found.text}. Nothing before scan {first} was compared: {last}")
+        return replace(found, text=f"{found.text}. {left}") if left else found
     except (Diverged, *NOT_AS_RECORDED) as error:
         raise Unreadable(f"the runs cannot be compared: {error}") from error
+
+
+def _between_gaps(first: int, end: int, gaps: Sequence[Gap]) -> tuple[int, int, str]:
+    """The scans after the last gap, else those before the first one; and which are left out, in words."""
+    if not gaps:
+        return first, end, ""
+    last, earliest = max(gaps, key=lambda each: each.until), min(gaps, key=lambda each: each.first)
+    if last.until < end:
+        return last.until, end, f"Nothing before scan {last.until} was compared: {last}"
+    if first < earliest.first:
+        return first, earliest.first, f"Nothing from scan {earliest.first} on was compared: {earliest}"
+    raise Unreadable(f"no scan can be compared that both runs have: {last}")
 
 
 def _scans(reader: RunReader) -> str:

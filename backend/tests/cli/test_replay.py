@@ -171,6 +171,8 @@ def test_a_damaged_run_says_what_is_lost(program: str, tmp_path: Path) -> None:
         assert result.exit_code == 4, result.output
         assert f"is damaged at byte {hit.offset}" in result.output
         assert "Scans 7 to 2999 are lost" in result.output
+    differ = call("diff", str(file), str(file.with_name("b.scanrun")))
+    assert "The same in all 7 scans that both have, 0 to 6. Nothing from scan 7 on was compared" in differ.output
     file.write_bytes(whole[:20] + b"?" + whole[21:])  # what it is about: there is a second one
     replayed = call("replay", str(file))
     assert replayed.exit_code == 4, replayed.output
