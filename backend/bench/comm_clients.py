@@ -36,7 +36,8 @@ async def fins(port: int, clients: int, seconds: float) -> list[float]:
             client.answered = loop.create_future()
             asked = loop.time()
             transport.sendto(frame)
-            answer = await asyncio.wait_for(client.answered, 10)
+            async with asyncio.timeout(10):
+                answer = await client.answered
             took.append(loop.time() - asked)
             assert answer[12:14] == b"\0\0", answer[:14].hex()
         transport.close()

@@ -155,7 +155,8 @@ class Instance:
         self._channel.tell(protocol.Quit())
         if self._task is not None:
             try:
-                await asyncio.wait_for(asyncio.shield(self._task), self._patience.grace_s)
+                async with asyncio.timeout(self._patience.grace_s):
+                    await asyncio.shield(self._task)
             except TimeoutError:
                 self._kill()
                 await self._task

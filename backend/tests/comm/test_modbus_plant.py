@@ -1,7 +1,10 @@
 """Wires to a plant, and Modbus as a client: what it asks is what our server understands."""
 
 import asyncio
+from asyncio import StreamWriter
+from collections import deque
 from dataclasses import replace
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -9,6 +12,7 @@ from scanbench.comm.modbus import ask
 from scanbench.comm.modbus.frame import Code, Request, Stream, failure
 from scanbench.comm.modbus.functions import Target, respond
 from scanbench.comm.modbus.mapping import default
+from scanbench.comm.modbus.plant import PATIENCE_S, Line
 from scanbench.comm.modbus.wires import PlantRange, PlantWanted, answers_bit, cleared, wires
 from scanbench.runtime.write_areas import WriteAreas
 from scanbench.wire.refused import Refused
@@ -111,3 +115,28 @@ def test_other_settings_that_make_no_sense_are_refused() -> None:
     with pytest.raises(Refused, match="plant answers: D0 has 16 bits"):
         answers_bit(OMRON, PlantWanted(answers="D0"))
     assert answers_bit(OMRON, PlantWanted()) is None
+
+
+@pytest.mark.parametrize("turns", range(6))
+def test_an_exchange_ends_when_it_is_cancelled_just_as_the_answer_comes(turns: int) -> None:
+    """Otherwise a plant that is switched off is exchanged with for ever, and the request that did it never gets its answer."""
+
+    async def cancelled() -> bool:
+        reader, writer = asyncio.StreamReader(), MagicMock(StreamWriter)
+        line = Line(reader, writer, Stream(), deque())
+
+        async def exchange() -> None:
+            while True:
+                await line.answer()
+
+        task = asyncio.create_task(exchange())
+        for _ in range(5):  # until it waits
+            await asyncio.sleep(0)
+        reader.feed_data(failure(ask.read(1, 1, "coil", 0, 1)[0], Code.NO_TARGET))
+        for _ in range(turns):
+            await asyncio.sleep(0)
+        task.cancel()
+        done, _ = await asyncio.wait([task], timeout=PATIENCE_S)
+        return bool(done)
+
+    assert asyncio.run(cancelled())

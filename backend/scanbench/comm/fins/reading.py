@@ -118,7 +118,8 @@ class FinsSource:
             self._asking.answers = asyncio.Queue()
             self._transport.sendto(asked)
             try:
-                return await asyncio.wait_for(self._answer(asked), ANSWER_S)
+                async with asyncio.timeout(ANSWER_S):
+                    return await self._answer(asked)
             except TimeoutError:
                 continue
             except OSError as error:

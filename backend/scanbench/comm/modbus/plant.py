@@ -29,7 +29,7 @@ NOT_THERE = (OSError, EOFError, Broken, ask.BadAnswer)
 
 
 @dataclass(slots=True)
-class _Line:
+class Line:
     """A connection to the plant."""
 
     reader: StreamReader
@@ -41,7 +41,8 @@ class _Line:
     async def answer(self) -> tuple[Request, bytes]:
         """The next frame that comes. `OSError`, `EOFError`, `Broken`."""
         while not self.came:
-            data = await asyncio.wait_for(self.reader.read(_PIECE), PATIENCE_S)
+            async with asyncio.timeout(PATIENCE_S):
+                data = await self.reader.read(_PIECE)
             if not data:
                 raise EOFError("the plant ended the connection")
             self.came.extend(self.stream.feed(data))
@@ -79,8 +80,9 @@ class PlantClient:
         wanted = self._wanted
         if self._desk.fault.kind == "refused":
             raise ConnectionRefusedError("nobody can connect")
-        reader, writer = await asyncio.wait_for(asyncio.open_connection(wanted.host, wanted.port), PATIENCE_S)
-        line = _Line(reader, writer, Stream(), deque())
+        async with asyncio.timeout(PATIENCE_S):
+            reader, writer = await asyncio.open_connection(wanted.host, wanted.port)
+        line = Line(reader, writer, Stream(), deque())
         try:
             while True:
                 begun = monotonic_ns()
@@ -90,7 +92,7 @@ class PlantClient:
         finally:
             writer.close()
 
-    async def _exchange(self, line: _Line) -> None:
+    async def _exchange(self, line: Line) -> None:
         writes: list[AreaWrite] = []
         for each in self._inputs:
             writes += each.writes(await self._read(line, each))
@@ -131,7 +133,7 @@ class PlantClient:
             await self._enter(writes)
         self.trouble = why
 
-    async def _read(self, line: _Line, wires: Wires) -> bytes:
+    async def _read(self, line: Line, wires: Wires) -> bytes:
         line.transaction = (line.transaction + 1) % _TRANSACTIONS
         request, frame = ask.read(line.transaction, self._wanted.unit, wires.group, wires.first, wires.count)
 
@@ -140,7 +142,7 @@ class PlantClient:
 
         return await self._asked(line, request, frame, read)
 
-    async def _write(self, line: _Line, wires: Wires, data: bytes) -> None:
+    async def _write(self, line: Line, wires: Wires, data: bytes) -> None:
         line.transaction = (line.transaction + 1) % _TRANSACTIONS
         request, frame = ask.write(line.transaction, self._wanted.unit, wires.group, wires.first, wires.count, data)
 
@@ -150,7 +152,7 @@ class PlantClient:
 
         await self._asked(line, request, frame, read)
 
-    async def _asked(self, line: _Line, request: Request, frame: bytes, read: Callable[[Request], bytes]) -> bytes:
+    async def _asked(self, line: Line, request: Request, frame: bytes, read: Callable[[Request], bytes]) -> bytes:
         name, answered, outcome = self._door.author, b"", ""
         try:
             self._desk.before_request()

@@ -43,7 +43,8 @@ async def open_opcua(connection: Connection) -> "OpcUaSource":
         client.set_user(connection.user)
         client.set_password(connection.password)
     try:
-        await asyncio.wait_for(client.connect(), 3 * ANSWER_S)
+        async with asyncio.timeout(3 * ANSWER_S):
+            await client.connect()
     except _TROUBLES as error:
         with suppress(Exception):
             client.disconnect_socket()
@@ -76,7 +77,8 @@ class OpcUaSource:
     async def close(self) -> None:
         """See `Source`."""
         with suppress(Exception):
-            await asyncio.wait_for(self._client.disconnect(), ANSWER_S)
+            async with asyncio.timeout(ANSWER_S):
+                await self._client.disconnect()
 
     # ---- what there is --------------------------------------------------------------------------------------------
 

@@ -75,7 +75,8 @@ class OpcUaServer:
         ready: asyncio.Future[int] = asyncio.get_running_loop().create_future()
         self._task = asyncio.get_running_loop().create_task(self._live(port, ready))
         try:
-            self.port = await asyncio.wait_for(asyncio.shield(ready), _START_S)
+            async with asyncio.timeout(_START_S):
+                self.port = await asyncio.shield(ready)
         except (TimeoutError, OSError) as error:
             await self.close()
             raise OSError(str(error) or SLOW) from error

@@ -65,7 +65,8 @@ class Values:
             if answer.version == self._version:
                 return answer, _pieces(variables, answer)
             try:  # the program was changed, and its nodes are on their way
-                await asyncio.wait_for(renewed.wait(), _RENEWED_S)
+                async with asyncio.timeout(_RENEWED_S):
+                    await renewed.wait()
             except TimeoutError:
                 return bad(ua.StatusCodes.BadOutOfService)
             if any(each.path and self._space.variables.get(each.id) is not each for each in variables):

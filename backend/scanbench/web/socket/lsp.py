@@ -54,7 +54,8 @@ async def on_lsp(bench: SocketBench, socket: WebSocket, project: Id) -> None:
             if "id" in message:
                 deadline.asked()
             writer.write(framed(message))
-            await asyncio.wait_for(writer.drain(), LONGEST_S)
+            async with asyncio.timeout(LONGEST_S):
+                await writer.drain()
     except (WebSocketDisconnect, RuntimeError, KeyError, ValueError, ConnectionError, TimeoutError, NotFound):
         pass  # gone, or it does not speak the protocol, or the project is no more
     finally:
