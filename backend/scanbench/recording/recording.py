@@ -84,6 +84,8 @@ class _Key:
     block: Block
     version: int
     state: bytes
+    entries: int
+    """Before it."""
     deltas: int = 0
 
 
@@ -290,13 +292,14 @@ class Recording:
     def _keep(self, scan: int, version: int, state: bytes) -> None:
         key = self._key
         fits = key is not None and key.version == version and len(key.state) == len(state) and key.deltas < DELTAS
-        if key is None or not fits or self._writer.file.end - key.block.end > self.bounds.limit // 16:
+        entries = self._writer.entries
+        if key is None or not fits or self.bounds.far(self._writer.file.end - key.block.end, entries - key.entries):
             block = self._writer.append(Kind.KEYFRAME, scan, keyframe(version, state))
-            self._key = key = _Key(block, version, state)
+            self._key = key = _Key(block, version, state, entries)
         else:
             block = self._writer.append(Kind.DELTA, scan, delta(state, key.state), key.block.crc)
             key.deltas = DELTAS if block.length > key.block.length // 2 else key.deltas + 1
-        self.checkpoints.append(Checkpoint(scan, self._writer.entries, version, block, key.block))
+        self.checkpoints.append(Checkpoint(scan, entries, version, block, key.block))
         if self._writer.file.format >= NUMBERED:
             for kind, payload in self._repeat:
                 self._writer.append(kind, 0, payload)
@@ -424,7 +427,9 @@ class Recording:
         first = checkpoints[0]
         left = [replace(each, entries=each.entries - gone) for each in self.gaps if each.entries >= made.cut]
         self.gaps[:] = [each for each in left if each.until > first.scan or each.entries > first.entries]
-        self._key = replace(key, block=moved) if key is not None and moved is not None else None
+        self._key = (
+            replace(key, block=moved, entries=key.entries - gone) if key is not None and moved is not None else None
+        )
         self._writer.entries -= gone
         self._writer.file, self.about = new, made.about
         self._repeat = _needed(self.about, self.programs)

@@ -15,6 +15,8 @@ from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.rewriting import Rewritten, rewrite
 from scanbench.recording.thinning import Checkpoint, plan_thinning
 
+_CUTS = 16
+"""So many places there are at least at which a file that is full can be cut."""
 ENTRY_LIMIT = 50_000
 """Entries are in memory too, so that there is a bound of them besides the file's."""
 
@@ -33,6 +35,10 @@ class Bounds:
     def over(self, bytes: int, entries: int) -> bool:
         """Whether it is time."""
         return bytes > self._enough or entries > self._enough_entries
+
+    def far(self, bytes: int, entries: int) -> bool:
+        """Whether so much after a keyframe the next one is due: a file is cut at keyframes, so there have to be enough of them."""
+        return bytes > self.limit // _CUTS or entries > ENTRY_LIMIT // _CUTS
 
     def tried(self, bytes: int, entries: int) -> None:
         """It is as small as it gets now, or could not be made smaller."""

@@ -12,7 +12,7 @@ from tests.amounts import amount, nightly
 
 @nightly
 def test_the_journal_stays_within_its_bound(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    limit = amount(4_000, 1_000)
+    limit = amount(smaller.ENTRY_LIMIT, 1_000)
     monkeypatch.setattr(smaller, "ENTRY_LIMIT", limit)
     days = 3 * limit / (24 * 60 * 60 * 10)
     found = run_heartbeat(tmp_path / "run", days)
