@@ -10,7 +10,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Command
 from scanbench.wire.host import Sources
 from scanbench.wire.memory import AreaSpan
-from scanbench.wire.opcua import PresentError
+from scanbench.wire.opcua import RaisedError
 from scanbench.wire.variables import VariablesAre
 
 
@@ -82,8 +82,8 @@ class Plc(Protocol):
         """What the program is made of that it runs."""
 
     @property
-    def errors(self) -> tuple[PresentError, ...] | None:
-        """Those that are present; None while it is not there, so that nobody can tell."""
+    def errors(self) -> tuple[RaisedError, ...] | None:
+        """Those that were raised, present or not; None while it is not there, so that nobody can tell."""
 
     def listen(self, changed: Callable[[], None]) -> Callable[[], None]:
         """Has `changed` called whenever program or errors may have changed; what is given back ends that."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
+from scanbench.faults.acknowledge import Acknowledge, Acknowledged
 from scanbench.faults.details import Chosen, choose, code_text_with
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Origin, Way, instances_in
@@ -91,6 +92,8 @@ class ErrorRow:
     recovered_by: str = ""
     """Who recovered or cleared it; empty: it is present, or went with a restart."""
     recovered_way: Way | None = None
+    acknowledged: Acknowledged | None = None
+    """None: nobody has acknowledged this time of it."""
     instance: str = ""
     """Which of its kind, in the notation of references: `fal:number=5`. Empty: the kind, of which no instance is known yet."""
 
@@ -194,6 +197,8 @@ class History:
             return self._generated(entry, command)
         if isinstance(command, Recover):
             return self._cleared(self._recovered(command), entry.at, entry.scan, (command.author, command.way))
+        if isinstance(command, Acknowledge):
+            return self._acknowledged(entry, command)
         return []
 
     def take_model(self, model: Model) -> None:
@@ -244,7 +249,7 @@ class History:
         for key, raised in {self._key(each.ref): each for each in instances_in(present).values()}.items():
             row = self._raised_by_version.get(shown, {}).get(key)
             if row is not None and row.generated_scan == raised.scan:
-                then._now[key] = _uncleared(row)
+                then._now[key] = _uncleared(_unacknowledged(row, scan))
             else:
                 then._raised(raised.ref, None, raised.scan, raised.by, raised.origin, None)
         return then.rows
@@ -330,9 +335,20 @@ class History:
         raised = replace(
             row,
             status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
-            generated_scan=scan, recovered_scan=None, recovered_by="", recovered_way=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
+            generated_scan=scan, recovered_scan=None, recovered_by="", recovered_way=None, acknowledged=None, by=by, origin=origin,
+            count=row.count + 1, reaction=reaction,
         )  # fmt: skip
         self._now[key] = _told(fitted_kind(self._model.fitted, error), raised)
+        return [self._now[key]]
+
+    def _acknowledged(self, entry: Entry, command: Acknowledge) -> list[ErrorRow]:
+        key = self._key(named_reference(command.error))
+        row = self._now.get(key)
+        if row is None:
+            return []
+        self._now[key] = replace(
+            row, acknowledged=Acknowledged(command.author, entry.at, entry.scan, command.remark)
+        )  # fmt: skip
         return [self._now[key]]
 
     def _cleared(
@@ -355,10 +371,18 @@ def _before(row: ErrorRow, scan: int) -> ErrorRow | None:
     if row.generated_scan is None:
         return row
     if row.generated_scan < scan:
-        return replace(row, status="cleared")
+        return replace(_unacknowledged(row, scan), status="cleared")
     if row.count == 1:
         return None
-    return replace(_uncleared(row), status="cleared", generated_at=None, generated_scan=None, by=None, reaction=None)
+    return replace(
+        _uncleared(row), status="cleared", generated_at=None, generated_scan=None, by=None, reaction=None, acknowledged=None
+    )  # fmt: skip
+
+
+def _unacknowledged(row: ErrorRow, scan: int) -> ErrorRow:
+    """The row as it was before `scan`, as far as somebody has acknowledged it later."""
+    later = row.acknowledged is not None and row.acknowledged.scan >= scan
+    return replace(row, acknowledged=None) if later else row
 
 
 def _uncleared(row: ErrorRow) -> ErrorRow:

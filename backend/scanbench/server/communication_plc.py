@@ -9,7 +9,7 @@ from scanbench.session.errors import LIVING
 from scanbench.session.session import Session
 from scanbench.wire.events import ErrorsChanged, Event, StateChanged
 from scanbench.wire.host import Sources
-from scanbench.wire.opcua import PresentError
+from scanbench.wire.opcua import RaisedError
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.variables import ReadVariables, VariablesAre
 
@@ -36,11 +36,11 @@ class SessionPlc:
         return self._session.instance.sources
 
     @property
-    def errors(self) -> tuple[PresentError, ...] | None:
+    def errors(self) -> tuple[RaisedError, ...] | None:
         """See `Plc`."""
         if self._session.state.state not in LIVING:
             return None
-        return tuple(_present(row) for row in self._session.errors.live if row.status == "generated")
+        return tuple(_raised(row) for row in self._session.errors.live if row.status != "never")
 
     def listen(self, changed: Callable[[], None]) -> Callable[[], None]:
         """See `Plc`."""
@@ -67,7 +67,9 @@ class SessionPlc:
         return found
 
 
-def _present(row: ErrorRow) -> PresentError:
-    return PresentError(
-        row.key, row.name, row.severity == "fatal", row.code, row.details, row.generated_at, row.by or ""
+def _raised(row: ErrorRow) -> RaisedError:
+    seen = row.acknowledged
+    return RaisedError(
+        row.key, row.name, row.severity == "fatal", row.code, row.details, row.generated_at, row.by or "",
+        row.status == "generated", row.recovered_at, "" if seen is None else seen.by, "" if seen is None else seen.remark,
     )  # fmt: skip

@@ -9,8 +9,11 @@ import asyncio
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from datetime import datetime
 from typing import TypeVar, get_args
 
+from scanbench.faults.acknowledge import Acknowledged
 from scanbench.faults.history import ErrorRow, RowReaction, instance_of
 from scanbench.faults.reference import error_of
 from scanbench.plcmodel.model import Model
@@ -225,6 +228,7 @@ def _kept(row: ErrorRow) -> HistoryRow:
         None if reaction is None else reaction.state, None if found is None else to_json(found),
         "" if reaction is None else reaction.message,
         row.recovered_by if cleared else "", row.recovered_way if cleared else None,
+        None if row.acknowledged is None else {**asdict(row.acknowledged), "at": row.acknowledged.at.isoformat()},
     )  # fmt: skip
 
 
@@ -237,8 +241,20 @@ def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
     return ErrorRow(
         id, name, "nonfatal" if error is None else error.severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
         kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count, _reaction_of(kept),
-        kept.program_version, recovered_by=kept.recovered_by, recovered_way=kept.recovered_way, instance=instance,
+        kept.program_version, recovered_by=kept.recovered_by, recovered_way=kept.recovered_way,
+        acknowledged=_acknowledged(kept.acknowledged), instance=instance,
     )  # fmt: skip
+
+
+def _acknowledged(kept: Json | None) -> Acknowledged | None:
+    """What cannot be understood is taken for not acknowledged."""
+    match kept:
+        case {"by": str(by), "at": str(at), "scan": int(scan), "remark": str(remark)}:
+            try:
+                return Acknowledged(by, datetime.fromisoformat(at), scan, remark)
+            except ValueError:
+                return None
+    return None
 
 
 def _reaction_of(kept: HistoryRow) -> RowReaction | None:

@@ -143,6 +143,7 @@ class HistoryRow:
     recovered_by: str = ""
     recovered_way: Way | None = None
     """None: it is present, went with a restart, or was kept before this was."""
+    acknowledged: Json | None = None
 
 
 @dataclass(frozen=True, slots=True)

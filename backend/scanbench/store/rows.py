@@ -87,6 +87,7 @@ def history(row: ErrorHistory) -> HistoryRow:
         reaction_message=row.reaction_message,
         recovered_by=row.recovered_by,
         recovered_way=cast(Way | None, row.recovered_way),
+        acknowledged=row.acknowledged,
     )
 
 

@@ -182,6 +182,7 @@ class ErrorHistory(Base):
     recovered_scan: Mapped[int | None] = mapped_column(BigInteger)
     recovered_by: Mapped[str] = mapped_column(String(AUTHOR), server_default="")
     recovered_way: Mapped[str | None] = mapped_column(String(16))
+    acknowledged: Mapped[dict[str, object] | None] = mapped_column(JSON(none_as_null=True))
     by: Mapped[str] = mapped_column(String(AUTHOR))
     origin: Mapped[str] = mapped_column(String(16))
     count: Mapped[int]

@@ -104,6 +104,15 @@ class ReactionState(Wire):
 # ---- history ---------------------------------------------------------------------------------------------------
 
 
+class ErrorAcknowledged(Wire):
+    """Somebody acknowledged an error at an alarm list."""
+
+    by: str
+    at: str = Field(description="ISO 8601, UTC")
+    scan: int
+    remark: str = Field(description="empty: none")
+
+
 class ErrorHistoryRow(Wire):
     """One row per error instance: has this version of the program been tested against it?"""
 
@@ -127,6 +136,9 @@ class ErrorHistoryRow(Wire):
     recovered_way: Literal["simulator", "tool", "program"] | None = Field(
         default=None,
         description="simulator: recovered, its cause is gone, too; tool, program: cleared in the device's own way",
+    )
+    acknowledged: ErrorAcknowledged | None = Field(
+        default=None, description="who acknowledged it the last time that it was raised; null: nobody"
     )
     by: str | None
     origin: Literal["simulator", "plc", "program"] | None

@@ -153,9 +153,16 @@ def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
         generated_at=None if row.generated_at is None else iso(row.generated_at),
         recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
         generated_scan=row.generated_scan, recovered_scan=row.recovered_scan,
-        recovered_by=row.recovered_by, recovered_way=row.recovered_way, by=row.by, origin=row.origin,
+        recovered_by=row.recovered_by, recovered_way=row.recovered_way, acknowledged=_acknowledged(row), by=row.by, origin=row.origin,
         count=row.count, reaction=translate_errors.in_short(row.reaction), swept=translate_errors.swept(row.swept),
     )  # fmt: skip
+
+
+def _acknowledged(row: ErrorRow) -> simulator.ErrorAcknowledged | None:
+    found = row.acknowledged
+    if found is None:
+        return None
+    return simulator.ErrorAcknowledged(by=found.by, at=iso(found.at), scan=found.scan, remark=found.remark)
 
 
 def diagnostics(found: Violations) -> wire.Diagnostics:

@@ -18,6 +18,7 @@ from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, Flow
 from scanbench.debug.halt import Halt, Left
 from scanbench.debug.set_value import SetLocal
 from scanbench.faults.absent import GenerateAbsent
+from scanbench.faults.acknowledge import Acknowledge, Remark
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.device_shapes import (
@@ -107,7 +108,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, AreaWrite, WriteAreas, CopyAreas, VariableWrite, WriteVariables, NetworkRequest, NetworkAnswer, PortsReady, LineFault, BreakLine, MendLine, BrokenLine, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, AreaWrite, WriteAreas, CopyAreas, VariableWrite, WriteVariables, NetworkRequest, NetworkAnswer, PortsReady, LineFault, BreakLine, MendLine, BrokenLine, Acknowledge, Remark, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
@@ -137,7 +138,7 @@ _CLASSES: dict[str, type] = {
         CampaignWanted, Trial, campaign_protocol.RunCampaign, campaign_protocol.TrialDone, campaign_protocol.CampaignDone, campaign_protocol.CampaignCount, campaign_protocol.CampaignState,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
-        opcua.OpcUaStart, opcua.OpcUaProgram, opcua.PresentError, opcua.OpcUaErrors, opcua.OpcUaFault, opcua.OpcUaReady, opcua.OpcUaFailed,
+        opcua.OpcUaStart, opcua.OpcUaProgram, opcua.RaisedError, opcua.OpcUaErrors, opcua.OpcUaFault, opcua.OpcUaReady, opcua.OpcUaFailed,
         opcua.OpcUaClient, opcua.OpcUaAsked, opcua.OpcUaSubmit, opcua.OpcUaDone,
     )
 }  # fmt: skip

@@ -39,8 +39,8 @@ class OpcUaProgram:
 
 
 @dataclass(frozen=True, slots=True)
-class PresentError:
-    """An error that is present."""
+class RaisedError:
+    """An error that is present, or was."""
 
     key: str
     """Which one, in the notation of references."""
@@ -51,14 +51,20 @@ class PresentError:
     details: str
     since: datetime | None
     by: str
+    present: bool
+    until: datetime | None
+    acknowledged_by: str
+    """Empty: nobody has acknowledged it, the last time that it was raised."""
+    remark: str
+    """Of who acknowledged it."""
 
 
 @dataclass(frozen=True, slots=True)
 class OpcUaErrors:
-    """The errors that are present now; `known` is false while the PLC is not there, so that nobody can tell."""
+    """The errors that are present now, and those that were; `known` is false while the PLC is not there, so that nobody can tell."""
 
     known: bool
-    errors: tuple[PresentError, ...]
+    errors: tuple[RaisedError, ...]
 
 
 @dataclass(frozen=True, slots=True)

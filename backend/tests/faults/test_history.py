@@ -7,6 +7,7 @@ from types import FrameType
 
 import pytest
 
+from scanbench.faults.acknowledge import Acknowledge, Acknowledged
 from scanbench.faults.history import ErrorRow, History, RowReaction, Swept, worst
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Raised, Way
@@ -84,6 +85,22 @@ def test_who_took_an_error_back_and_how(way: Way) -> None:
     raise_(history, "battery-error", scan=10)
     again = row(history, "battery-error")
     assert (again.status, again.recovered_by, again.recovered_way) == ("generated", "", None)
+
+
+def test_who_acknowledged_an_error_is_known_until_it_is_raised_again() -> None:
+    history = History(model(), 1)
+    assert history.fold(entry(Acknowledge("Ada", "battery-error", ""), 2)) == []
+    raise_(history, "battery-error", scan=3)
+    (seen,) = history.fold(entry(Acknowledge("Ada", "battery-error", "a new one comes"), 5))
+    assert isinstance(seen.acknowledged, Acknowledged)
+    assert (seen.acknowledged.by, seen.acknowledged.scan, seen.acknowledged.remark) == ("Ada", 5, "a new one comes")
+    history.fold(entry(Recover("Ada", None), 9))
+    assert row(history, "battery-error").acknowledged == seen.acknowledged
+    then = {scan: history.as_of({}, scan) for scan in (5, 6)}
+    found = {scan: next(each for each in rows if each.id == "battery-error") for scan, rows in then.items()}
+    assert (found[5].acknowledged, found[6].acknowledged) == (None, seen.acknowledged)
+    raise_(history, "battery-error", scan=10)
+    assert row(history, "battery-error").acknowledged is None
 
 
 def test_a_program_that_starts_fresh_has_no_errors() -> None:

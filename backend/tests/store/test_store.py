@@ -145,6 +145,7 @@ def test_a_row_of_the_history_takes_the_place_of_the_one_before(store: Store) ->
     assert store.errors.history(instance) == [ROW]
     cleared = replace(
         ROW, status="cleared", recovered_at=NOON + timedelta(minutes=1), recovered_scan=5000, recovered_by="Ada", recovered_way="tool",
+        acknowledged={"by": "Ada", "at": "2026-11-29T12:00:00+00:00", "scan": 5001, "remark": "seen"},
     )  # fmt: skip
     battery = replace(ROW, error="battery-error", generated_scan=2**40, by="bob", origin="program", count=7)
     store.errors.keep(other, [battery])

@@ -216,6 +216,7 @@ def test_a_subscriber_sees_values_of_one_scan_errors_and_their_recovery_and_call
             await changes.until("20", lambda value, _: value == ["00F7 Battery error"])
             event = await alarm(changes, active=True)
             assert event.Message.Text == "00F7 Battery error"
+            assert not getattr(event, "AckedState/Id")
             assert (event.ConditionName, event.Severity, event.Retain) == ("battery-error", 500, True)
             assert await at(client, "Main.errors").read_value() == 0xF7
             conditions = client.get_node(f"i={ua.ObjectIds.ConditionType}")
@@ -230,7 +231,7 @@ def test_a_subscriber_sees_values_of_one_scan_errors_and_their_recovery_and_call
             await asyncio.to_thread(recover, server, instance)
             await changes.until("20", lambda value, _: value == [])
             event = await alarm(changes, active=False)
-            assert (event.Message.Text, event.Retain) == ("recovered: 00F7 Battery error", False)
+            assert (event.Message.Text, event.Retain) == ("recovered: 00F7 Battery error", True), "nobody has seen it"
 
             await methods.call_method("2:SetMode", "PROGRAM")
             assert await numbered(client, 10).read_value() == "PROGRAM"
@@ -240,6 +241,80 @@ def test_a_subscriber_sees_values_of_one_scan_errors_and_their_recovery_and_call
                 await methods.call_method("2:SetMode", "WALK")
 
     run(story())
+
+
+def test_an_alarm_is_acknowledged_with_a_remark_by_who_may_write(server: Server) -> None:
+    instance = server.instance("opc ua alarms", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def story() -> None:
+        ann, bob = Changes(), Changes()
+        async with client_at(address, server.token) as ada, client_at(address) as nobody:
+            for client, changes in ((ada, ann), (nobody, bob)):
+                subscription = await client.create_subscription(50, changes)
+                await subscription.subscribe_alarms_and_conditions(
+                    numbered(client, 5), [ua.ObjectIds.OffNormalAlarmType]
+                )
+            await asyncio.to_thread(raise_battery_error, server, instance)
+            raised = await alarm(ann, active=True)
+            assert (raised.Retain, getattr(raised, "AckedState/Id"), raised.Comment.Text) == (True, False, "")
+            assert (await alarm(bob, active=True)).EventId == raised.EventId
+
+            assert await said(nobody, ACKNOWLEDGE, raised) == "BadUserAccessDenied"
+            assert await said(ada, ACKNOWLEDGE, raised, event=b"no event") == "BadEventIdUnknown"
+            assert await said(ada, ACKNOWLEDGE, raised, condition="alarm:memory-error") == "BadNodeIdUnknown"
+            assert await said(ada, ACKNOWLEDGE, raised, comment=None) == "BadInvalidArgument"
+            assert await said(ada, CONFIRM, raised) == "BadNotSupported"
+            assert await said(ada, ADD_COMMENT, raised, comment="who has a battery?") == "Good"
+            remark = await alarm(bob, active=True)
+            assert (remark.Comment.Text, getattr(remark, "AckedState/Id")) == ("who has a battery?", False)
+
+            await asyncio.to_thread(recover, server, instance)
+            gone = await alarm(ann, active=False)
+            assert (gone.Retain, getattr(gone, "AckedState/Id")) == (True, False)
+            assert await said(ada, ACKNOWLEDGE, raised, comment="new one is in") == "Good"
+            seen = await alarm(ann, active=False)
+            assert (seen.Retain, getattr(seen, "AckedState/Id"), seen.Comment.Text) == (False, True, "new one is in")
+            assert seen.ClientUserId == "OPC UA Ada, HMI"
+            assert await said(ada, ACKNOWLEDGE, raised) == "BadNodeIdUnknown", "it is over"
+
+            await asyncio.to_thread(raise_battery_error, server, instance)
+            again = await alarm(ann, active=True)
+            assert (getattr(again, "AckedState/Id"), again.Comment.Text) == (False, "")
+            assert await said(ada, ACKNOWLEDGE, raised) == "BadEventIdUnknown", "that was the time before"
+            assert await said(ada, ACKNOWLEDGE, again) == "Good"
+            assert (await alarm(ann, active=True)).Retain
+            assert await said(ada, ACKNOWLEDGE, again) == "BadConditionBranchAlreadyAcked"
+
+    run(story())
+    (row,) = (each for each in rows(server, instance) if each["id"] == "battery-error")
+    assert (row["acknowledged"]["by"], row["acknowledged"]["remark"]) == ("OPC UA Ada, HMI", "")
+    log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
+    told = [each["text"] for each in log if each["author"] == "OPC UA Ada, HMI"]
+    assert "battery-error was acknowledged: new one is in" in told
+    assert "battery-error: remark: who has a battery?" in told
+
+
+ACKNOWLEDGE, ADD_COMMENT, CONFIRM = (ua.NodeId.from_string(f"i={each}") for each in (9111, 9029, 9113))
+"""Methods of AcknowledgeableConditionType and of ConditionType."""
+
+
+async def said(
+    client: Client, method: ua.NodeId, alarm: Any, comment: str | None = "", event: bytes = b"", condition: str = ""
+) -> str:
+    """The name of the status that answers who calls a method of an alarm."""
+    asked = ua.CallMethodRequest()
+    asked.ObjectId = at(client, condition).nodeid if condition else alarm.NodeId
+    asked.MethodId = method
+    given = ua.Variant(comment) if comment is None else ua.Variant(ua.LocalizedText(comment))
+    asked.InputArguments = [ua.Variant(event or alarm.EventId, ua.VariantType.ByteString), given]
+    (found,) = await client.uaclient.call([asked])
+    return str(found.StatusCode.name)
+
+
+def rows(server: Server, instance: int) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = server.http.get(f"/api/instances/{instance}/errors").json()
+    return found
 
 
 def numbered(client: Client, number: int) -> Node:

@@ -79,6 +79,7 @@ export function row({ id, name, code, severity }: ErrorInfo, more: Partial<Error
     recovered_scan: null,
     recovered_by: "",
     recovered_way: null,
+    acknowledged: null,
     origin: null,
     reaction: null,
     swept: null,

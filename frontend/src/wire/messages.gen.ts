@@ -4982,6 +4982,26 @@ export interface components {
             /** Value */
             value: number;
         };
+        /**
+         * ErrorAcknowledged
+         * @description Somebody acknowledged an error at an alarm list.
+         */
+        ErrorAcknowledged: {
+            /**
+             * At
+             * @description ISO 8601, UTC
+             */
+            at: string;
+            /** By */
+            by: string;
+            /**
+             * Remark
+             * @description empty: none
+             */
+            remark: string;
+            /** Scan */
+            scan: number;
+        };
         /** ErrorChoiceInfo */
         ErrorChoiceInfo: {
             /** Address */
@@ -5081,6 +5101,11 @@ export interface components {
          * @description One row per error instance: has this version of the program been tested against it?
          */
         ErrorHistoryRow: {
+            /**
+             * @description who acknowledged it the last time that it was raised; null: nobody
+             * @default null
+             */
+            acknowledged: components["schemas"]["ErrorAcknowledged"] | null;
             /** By */
             by: string | null;
             /** Code */

@@ -113,6 +113,17 @@ class ArmedFault(TypedDict):
     """Of its next step, when that is known."""
 
 
+class ErrorAcknowledged(TypedDict):
+    """Somebody acknowledged an error at an alarm list."""
+
+    by: str
+    at: str
+    """ISO 8601, UTC."""
+    scan: int
+    remark: str
+    """empty: none."""
+
+
 class ReactionState(TypedDict):
     """In short, for the tables. `recording`: the window is not over; `failed`: `message` says why there is none."""
 
@@ -163,6 +174,8 @@ class ErrorHistoryRow(TypedDict):
     """who did it; empty: it is present, or went with a restart."""
     recovered_way: Literal["simulator", "tool", "program"] | None
     """simulator: recovered, its cause is gone, too; tool, program: cleared in the device's own way."""
+    acknowledged: ErrorAcknowledged | None
+    """who acknowledged it the last time that it was raised; null: nobody."""
     by: str | None
     origin: Literal["simulator", "plc", "program"] | None
     count: int

@@ -13,6 +13,7 @@ from asyncua.server.internal_session import InternalSession
 from asyncua.server.monitored_item_service import MonitoredItemData
 from asyncua.server.user_managers import UserManager
 
+from scanbench.comm.opcua.errors import METHODS, Errors
 from scanbench.comm.opcua.forms import NoValue
 from scanbench.comm.opcua.ids import standard
 from scanbench.comm.opcua.items import refusal
@@ -43,6 +44,8 @@ class Desk:
     space: Space
     values: Values
     methods: dict[ua.NodeId, tuple[str, Method]]
+    alarms: Errors | None
+    """None: not made yet."""
     tellers: tuple[ua.NodeId, ...]
     """Objects whose events are those of the server."""
 
@@ -231,6 +234,8 @@ class Session(InternalSession):
         return [await self._called(each) for each in params]
 
     async def _called(self, request: ua.CallMethodRequest) -> ua.CallMethodResult:
+        if request.MethodId in METHODS:
+            return await self._said_of_alarm(request)
         own = self._desk.methods.get(request.MethodId)
         if own is None:
             return (await super().call([request]))[0]
@@ -242,6 +247,21 @@ class Session(InternalSession):
         else:
             status, outcome = await self._entered(command)
         self._desk.link.asked(self.client, f"call {name}", outcome)
+        return ua.CallMethodResult(status)
+
+    async def _said_of_alarm(self, request: ua.CallMethodRequest) -> ua.CallMethodResult:
+        alarms, codes = self._desk.alarms, ua.StatusCodes
+        found: Command | int = codes.BadUserAccessDenied if not self.may_write else codes.BadNodeIdUnknown
+        if self.may_write and alarms is not None:
+            found = alarms.command(self.client, request)
+        if isinstance(found, Command):
+            status, outcome = await self._entered(found)
+            if alarms is not None and status.is_good():
+                await alarms.done(found)
+        else:
+            status = _status(found)
+            outcome = status.name
+        self._desk.link.asked(self.client, f"call {METHODS[request.MethodId]} {_id_text(request.ObjectId)}", outcome)
         return ua.CallMethodResult(status)
 
     # ---- subscriptions --------------------------------------------------------------------------------------------

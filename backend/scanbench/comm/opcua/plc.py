@@ -63,7 +63,7 @@ class Plc:
 
     async def open(self) -> None:
         """Makes the nodes that are always there, and listens. `OSError`."""
-        iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}, (_PLC, _ERRORS)))
+        iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}, None, (_PLC, _ERRORS)))
         _use(iserver, self._space)
         self._values.publishing = Publishing(iserver.subscription_service)
         server = self._server = OpcUa(self._start, iserver, self._line)
@@ -72,7 +72,7 @@ class Plc:
         assert index == INDEX
         self._make(iserver.desk)
         await show_device(server, _PLC, self._start.plc, self._start.model)
-        self._errors = Errors(server, self._values, _ERRORS, self._shown_errors())
+        self._errors = iserver.desk.alarms = Errors(server, self._values, _ERRORS, self._shown_errors())
         self._changed = await server.get_event_generator(ua.ObjectIds.GeneralModelChangeEventType)
         await server.start()
 

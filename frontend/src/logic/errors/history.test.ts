@@ -15,6 +15,7 @@ const line = (id: string, more: Partial<HistoryLine> = {}): HistoryLine => ({
   recovered_scan: null,
   recovered_by: "",
   recovered_way: null,
+  acknowledged: null,
   by: null,
   origin: null,
   count: 0,

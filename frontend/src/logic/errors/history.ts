@@ -121,6 +121,7 @@ export function recordLines(record: TestRecord): HistoryLine[] {
     label: "",
     recovered_by: "",
     recovered_way: null,
+    acknowledged: null,
     by: error.by || null,
     ...(error.verdict_from === "sweep"
       ? { reaction: null, swept: reactionIn(error) }

@@ -47,6 +47,15 @@ test.each(["simulator", "tool", "program"] as const)("what went by the %s says s
   await waitFor(() => expect(textOf(line(BATTERY.name) ?? null)).toContain(t(`errors.way.${way}`)));
 });
 
+test("what somebody acknowledged says so, and what they said", async () => {
+  const { server } = await openHistory();
+  const acknowledged = { by: "OPC UA Ada, HMI", at: "2026-11-29T12:00:00Z", scan: 1234, remark: "new one is in" };
+  server.say({ type: "errors", whole: false, rows: [row(BATTERY, { ...RAISED, acknowledged })] });
+  const word = await screen.findByText(t("history.acknowledged"));
+  expect(word.title).toContain("OPC UA Ada, HMI");
+  expect(word.title).toContain("new one is in");
+});
+
 test("a name leads to the details of just this instance in the error simulator", async () => {
   const { server, user, places } = await openHistory();
   const unit = (slot: number) => row(BASIC, { ...RAISED, instance: `basic-io-error:rack=0,slot=${slot}` });

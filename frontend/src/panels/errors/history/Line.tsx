@@ -14,6 +14,7 @@ import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import { StateWord } from "../../../ui/StateWord";
 import { StatusWord } from "../../../ui/StatusWord";
+import { acknowledgedBy } from "../acknowledgedBy";
 
 /** One error: how often it was raised, and how the program reacted. */
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
@@ -36,6 +37,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
       </td>
       <td>
         <StatusWord status={line.status} swept={isSwept(line) && line.status === "never"} way={line.recovered_way} />
+        {line.acknowledged && <Acknowledged seen={line.acknowledged} />}
       </td>
       <td>
         <Reaction line={line} />
@@ -67,6 +69,16 @@ function Choice({ line }: { line: HistoryLine }) {
     >
       {line.name}
     </button>
+  );
+}
+
+/** Somebody has seen it at an alarm list. */
+function Acknowledged({ seen }: { seen: NonNullable<HistoryLine["acknowledged"]> }) {
+  return (
+    <span className="faint" title={acknowledgedBy(seen)}>
+      {" "}
+      {t("history.acknowledged")}
+    </span>
   );
 }
 

@@ -14,6 +14,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import type { ErrorHistoryRow, ErrorInfo, GenerateOne, ReactionState } from "../../../wire/types";
+import { acknowledgedBy } from "../acknowledgedBy";
 import { Control } from "./controls";
 import { Facts } from "./Facts";
 import { Preview } from "./Preview";
@@ -42,6 +43,7 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
       {error.description && <p className="muted">{error.description}</p>}
       {raised && <Raised error={error} row={raised} />}
       {row?.status === "cleared" && row.recovered_way && <Gone row={row} way={row.recovered_way} />}
+      {row?.acknowledged && <p className="muted">{acknowledgedBy(row.acknowledged)}</p>}
       {!fitted && <Absent error={error} wanted={wanted} />}
       <div className="row wrap apart">
         <span className="kv">

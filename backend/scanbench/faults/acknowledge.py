@@ -1,0 +1,70 @@
+"""What people say of an error at an alarm list: that they have seen it, and a remark. The PLC and its memory know nothing of it.
+
+It is entered like any command, so it is in the log with its author, and in the run.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import ClassVar
+
+from scanbench.faults.reference import named_reference
+from scanbench.runtime.command import Category, Command, Plan, Refusal, View
+
+LONGEST_REMARK = 200
+"""Characters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Acknowledged:
+    """Who has seen that an error was raised."""
+
+    by: str
+    at: datetime
+    scan: int
+    remark: str
+    """Empty: none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Acknowledge(Command):
+    """Somebody has seen that an error was raised; whether it is still present does not matter."""
+
+    category: ClassVar[Category] = "system"
+
+    error: str
+    """In the notation of references: `battery-error`, `fal:number=5`."""
+    remark: str
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Nothing in memory."""
+        refused = _refused(view, self.error, self.remark)
+        if refused is not None:
+            return refused
+        if not self.remark:
+            return Plan((), f"{self.error} was acknowledged")
+        return Plan((), f"{self.error} was acknowledged: {self.remark}")
+
+
+@dataclass(frozen=True, slots=True)
+class Remark(Command):
+    """Somebody has something to say of an error."""
+
+    category: ClassVar[Category] = "system"
+
+    error: str
+    remark: str
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Nothing in memory."""
+        if not self.remark:
+            return Refusal("a remark has to say something")
+        return _refused(view, self.error, self.remark) or Plan((), f"{self.error}: remark: {self.remark}")
+
+
+def _refused(view: View, error: str, remark: str) -> Refusal | None:
+    found = view.model.error(named_reference(error).id)
+    if found is None:
+        return Refusal(f"{view.model.name} has no error {error}")
+    if len(remark) > LONGEST_REMARK:
+        return Refusal(f"a remark has up to {LONGEST_REMARK} characters, not {len(remark)}")
+    return None
