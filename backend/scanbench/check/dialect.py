@@ -70,6 +70,8 @@ class Allowance(Enum):
     COMBINED_ASSIGNMENT = auto()
     BLOCK_WRITES = auto()
     TEXT_STRUCTURES = auto()
+    ACTION_ARGUMENTS = auto()
+    OUTSIDE_PARTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -354,6 +356,16 @@ RULES: dict[Allowance, Rule] = {
         "texts that are a structure of LEN and DATA in comparisons",
         "structures are not compared",
         "`Logix.COMPARE(a, b) = 0`",
+    ),
+    Allowance.ACTION_ARGUMENTS: Rule(
+        "inputs and outputs of a block in the call of its ACTION, `table.Add(key := 3, ok => done)`",
+        "an ACTION has no arguments",
+        "`table.key := 3;` before it, and `done := table.ok;` after it",
+    ),
+    Allowance.OUTSIDE_PARTS: Rule(
+        "variables of a PROGRAM, and parts of the structures and blocks in a block, written from outside",
+        "only inputs of a block are assigned from outside",
+        "`VAR_INPUT`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",

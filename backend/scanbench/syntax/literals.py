@@ -32,7 +32,7 @@ def integer(text: str) -> int:
         return int(text)
     base, digits = text.split("#", 1)
     sign, base = (-1, base[1:]) if base[0] == "-" else (1, base.removeprefix("+"))
-    if base not in ("2", "8", "16"):
+    if base not in ("2", "8", "10", "16"):  # 10 is of vendors
         raise ValueError("a number is written in base 2, 8 or 16")
     try:
         return sign * int(digits, int(base))

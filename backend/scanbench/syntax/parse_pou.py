@@ -18,6 +18,8 @@ ENDS = {
     "PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK",
     "CLASS": "END_CLASS", "INTERFACE": "END_INTERFACE",
 }  # fmt: skip
+ACTION = "ACTION"
+"""Among the modifiers of a method: it is an ACTION."""
 MEMBERS = frozenset(("METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET", "ACTION"))
 SETTINGS_OF_VENDORS = frozenset(("VERSION", "TITLE", "AUTHOR", "FAMILY"))
 
@@ -256,7 +258,7 @@ def _action(c: Cursor) -> tree.PouDeclaration:
     if not c.accept("END_ACTION"):
         _missing(c, "END_ACTION", f"ACTION {c.texts[name]}")
     c.accept(";")
-    return _declared(c, "method", name, None, (), body, "PUBLIC", ())
+    return _declared(c, "method", name, None, (), body, "PUBLIC", (ACTION,))
 
 
 def _property(

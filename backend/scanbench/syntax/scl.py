@@ -325,8 +325,6 @@ class _Writer(Words):
             prefix, hash, value = text.partition("#")
             self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
         else:
-            if kind is Lex.INTEGER and text.startswith("10#"):
-                text = text[3:] if text[3:].replace("_", "").isdigit() else text
             self._depth += {"(": 1, ")": -1}.get(text, 0)
             self._put(kind, text, at)
 

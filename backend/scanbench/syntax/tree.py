@@ -337,7 +337,7 @@ class PouDeclaration:
     """One base of a class or block; any number for an interface."""
     implements: tuple[NamedType, ...] = ()
     modifiers: tuple[str, ...] = ()
-    """ABSTRACT, FINAL, OVERRIDE; of a method with the attribute `call_after_init` that too, in upper case; of a program STARTUP."""
+    """ABSTRACT, FINAL, OVERRIDE; of a method ACTION, and the attribute `call_after_init` in upper case; of a program STARTUP."""
     access: str = "PUBLIC"
     namespace: str = ""
     """`A.B`, empty at the top."""

@@ -255,7 +255,8 @@ APART = {
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.GENERIC_CONSTANTS,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
-    Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES,
+    Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
+    Allowance.OUTSIDE_PARTS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

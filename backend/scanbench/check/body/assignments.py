@@ -16,6 +16,7 @@ from scanbench.check.body.subrange_checks import holding, keeping, noting
 from scanbench.check.body.subrange_copies import landed
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
+from scanbench.check.declare.settings import waits
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Stmt
@@ -197,10 +198,10 @@ def condition(body: Body, node: tree.Expression) -> Expr:
 
 def _copied(body: Body, type: Type, node: tree.Assignment) -> bool:
     """Whether the dialect copies all that an instance has to one of the same block, and `value` is such a one; or a structure
-    with instances in it."""
-    if not isinstance(type, Record) or not isinstance(node.value, VARIABLES):
+    or array with instances in it."""
+    if not isinstance(type, Record | ArrayType) or not isinstance(node.value, VARIABLES):
         return False
-    if type.kind is not Kind.BLOCK and body.declarations.incomplete:
+    if body.declarations.incomplete and not (isinstance(type, Record) and type.kind is Kind.BLOCK) and waits(type):
         return False  # links of what waits for an address are not copied
     mark = body.report.mark()
     given = body.place(node.value)[0].type

@@ -4,6 +4,7 @@ from bisect import bisect
 from dataclasses import replace
 
 from scanbench.check.body import targets
+from scanbench.check.body.action_calls import action_call
 from scanbench.check.body.allowed import allowed
 from scanbench.check.body.arguments import together
 from scanbench.check.body.assignments import assign, condition
@@ -137,7 +138,7 @@ def _expression(body: Body, node: tree.ExpressionStatement) -> Stmt | None:
     spelled = spelled_out(body, call)
     if spelled is not None:
         return together(list(block(body, spelled)), node.span)
-    return variant_copy(body, call) or call_statement(body, call)
+    return variant_copy(body, call) or action_call(body, call, block) or call_statement(body, call)
 
 
 def _case(body: Body, node: tree.CaseStatement) -> Stmt:

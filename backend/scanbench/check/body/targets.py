@@ -3,6 +3,7 @@
 from scanbench.check.body.allowed import allowed
 from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Borrowed
+from scanbench.check.declare.programs import PROGRAMS
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.problems import Problem, Span
@@ -24,22 +25,46 @@ def declared_target(body: Body, node: tree.Expression, how: str = "", reader: Sy
     place, member = body.place(node)
     _not_peeked(body, node)
     note_written(body, node)
-    body.effects.assignable(body, place, member, node.span, how, reader)
+    if _within_output(body, member, node):
+        body.effects.assignable(body, place, None, node.span, how, reader)
+    else:
+        body.effects.assignable(body, place, member, node.span, how, reader)
     return place, member
+
+
+def _within_output(body: Body, member: Member | None, node: tree.Expression) -> bool:
+    """Whether it is a member of a structure that is an output of another block, and the dialect lets that be written."""
+    inner = variable(node)
+    if member is None or member.section is not Section.OUTPUT or member.constant or _is_own(body, member):
+        return False
+    if not isinstance(inner, tree.MemberOf) or inner.name.upper() == member.name.upper():
+        return False
+    what = f"`{shown(inner)}` is a part of the output `{member.name}` and is written here"
+    return allowed(body, Allowance.OUTSIDE_PARTS, node.span, what)
 
 
 def _not_peeked(body: Body, node: tree.Expression) -> None:
     """Refuses to write what the dialect lets be read only."""
-    while body.peeked and isinstance(node, tree.IndexOf | tree.PartialAccess | tree.MemberOf):
-        if node.span in body.peeked:
-            if allowed(
-                body, Allowance.BLOCK_WRITES, node.span, f"`{shown(node)}` is internal of its block and is written here"
-            ):
+    inner, written = node, variable(node)
+    while body.peeked and isinstance(inner, tree.IndexOf | tree.PartialAccess | tree.MemberOf):
+        if inner.span in body.peeked:
+            what = f"`{shown(inner)}` is internal of its block and is written here"
+            if allowed(body, Allowance.BLOCK_WRITES, inner.span, what):
+                return
+            deeper = isinstance(written, tree.MemberOf) and written.span != inner.span
+            if (deeper or _of_program(body, inner)) and allowed(body, Allowance.OUTSIDE_PARTS, inner.span, what):
                 return
             raise body.report.reject(
-                "T003", "A variable of a block can be read from outside, but only its block writes it.", node.span
+                "T003", "A variable of a block can be read from outside, but only its block writes it.", inner.span
             )
-        node = node.array if isinstance(node, tree.IndexOf) else node.owner
+        inner = inner.array if isinstance(inner, tree.IndexOf) else inner.owner
+
+
+def _of_program(body: Body, node: tree.Expression) -> bool:
+    """Whether it is `Program.variable`."""
+    owner = node.owner if isinstance(node, tree.MemberOf) else None
+    found = body.scope.find(owner.name) if isinstance(owner, tree.Name) else None
+    return found is not None and found[2].name == PROGRAMS
 
 
 def note_written(body: Body, node: tree.Expression, may_read: bool = False) -> None:
@@ -82,6 +107,12 @@ def assignable(
                 return
             raise body.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", span)
     writable(body, place, span, how, reader)
+
+
+def _is_own(body: Body, member: Member) -> bool:
+    """Whether it is a variable of what is checked itself."""
+    owner = body.scope.find(member.name)
+    return (owner is not None and owner[0] is member) or _own(body, member)
 
 
 def _own(body: Body, member: Member) -> bool:

@@ -12,6 +12,7 @@ from scanbench.check.uses import Symbol
 from scanbench.program.program import Pou
 from scanbench.program.types import UDINT, Kind, Member, Record, Reference, Section
 from scanbench.syntax import tree
+from scanbench.syntax.parse_pou import ACTION
 
 TYPE_NUMBER = "$type"
 """Hidden first member of everything that takes part in inheritance: the number of the instance's class."""
@@ -160,6 +161,8 @@ class Classes:
     by_key: dict[str, Class] = field(default_factory=dict)
     properties: set[str] = field(default_factory=set)
     """Names of all properties: what is none of them needs no look into the classes."""
+    actions: set[str] = field(default_factory=set)
+    """Names of all actions, in upper case."""
 
     def of(self, record: object) -> Class | None:
         """The class whose instances have this record."""
@@ -330,6 +333,8 @@ def _declare_method(
     owner.methods[method.key] = method
     if declaration.kind in ("get", "set"):
         classes.properties.add(declaration.name.upper())
+    if ACTION in declaration.modifiers:
+        classes.actions.add(declaration.name.upper())
     if declaration.kind == "set" and declaration.result is not None:
         given = tree.Variable(declaration.name, declaration.result, None, None, declaration.span)
         section = tree.VariableSection("VAR_INPUT", (), (given,), declaration.span)

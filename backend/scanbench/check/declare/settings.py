@@ -156,14 +156,14 @@ def _inside(path: str, type: Type, offset: int) -> Iterator[Waiting]:
             yield from _inside(f"{path}[{low + index}]", rest, offset + index * type.stride(0))
 
 
-def _waits(type: Type) -> bool:
+def waits(type: Type) -> bool:
     """Whether a variable without an address is anywhere in it."""
     if isinstance(type, ArrayType):
-        return _waits(type.element)
+        return waits(type.element)
     if not isinstance(type, Record):
         return False
     return any(member.incomplete or _holds(member) for member in type.members.values())
 
 
 def _holds(member: Member) -> bool:
-    return not member.located and member.section is not Section.IN_OUT and _waits(member.type)
+    return not member.located and member.section is not Section.IN_OUT and waits(member.type)
