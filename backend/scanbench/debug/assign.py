@@ -1,6 +1,8 @@
 """Assignments from outside in the scope of a frame: what an execution point does, and an expression that assigns."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 from scanbench.check.typed.condition import BadCondition
 from scanbench.check.typed.local import LocalAssignments, locals_of
@@ -15,6 +17,8 @@ from scanbench.runtime.target import everywhere
 from scanbench.symbols.names import names_of
 from scanbench.symbols.values import format_value
 
+Local = TypeVar("Local")
+"""What was compiled."""
 _NAMES = 10_000
 """Places whose names are kept, as they take long to find."""
 
@@ -32,12 +36,9 @@ class Assign(Command):
     def plan(self, view: View) -> Plan | Refusal:
         """A patch for each assignment, in their order."""
         program = view.statements
-        pou = pou_of(program, self.pou)
-        if isinstance(pou, Refusal):
-            return pou
-        local = locals_of(program).assignments(pou, self.text)
-        if isinstance(local, BadCondition):
-            return Refusal(local.message, local.near)
+        local = in_scope(program, self.pou, lambda pou: locals_of(program).assignments(pou, self.text))
+        if isinstance(local, Refusal):
+            return local
         return Assigning(Evaluator(program, bytearray(view.memory)), local).plan(view, self.instance)
 
 
@@ -74,12 +75,13 @@ class Assigning:
         return f"{self._names[spot]} := {value}"
 
 
-def pou_of(program: Program, name: str) -> Pou | Refusal | None:
-    """The POU of this name; None for the whole program."""
-    if not name:
-        return None
+def in_scope(program: Program, name: str, compiled: Callable[[Pou | None], Local | BadCondition]) -> Local | Refusal:
+    """What was compiled in the scope of the POU of this name; of an empty name, in that of the whole program."""
     found = next((each for each in program.pous if each.name.upper() == name.upper()), None)
-    return found or Refusal(f"the program has no POU {name} any more")
+    if name and found is None:
+        return Refusal(f"the program has no POU {name} any more")
+    local = compiled(found)
+    return Refusal(local.message, local.near) if isinstance(local, BadCondition) else local
 
 
 def patch(spot: Spot, data: bytes) -> Patch:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from scanbench.check.typed.condition import BadCondition
 from scanbench.check.typed.local import locals_of
-from scanbench.debug.assign import Assign, patch, pou_of, refused
+from scanbench.debug.assign import Assign, in_scope, patch, refused
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
@@ -29,12 +29,9 @@ class SetLocal(Command):
     def plan(self, view: View) -> Plan | Refusal:
         """One patch in the frame."""
         program = view.statements
-        pou = pou_of(program, self.pou)
-        if isinstance(pou, Refusal):
-            return pou
-        local = locals_of(program).place(pou, self.expression)
-        if isinstance(local, BadCondition):
-            return Refusal(local.message, local.near)
+        local = in_scope(program, self.pou, lambda pou: locals_of(program).place(pou, self.expression))
+        if isinstance(local, Refusal):
+            return local
         try:
             spot = Evaluator(program, bytearray(view.memory)).locate(local, self.instance)
             spot = program.layout.copies.actual(view.memory, *spot) or spot

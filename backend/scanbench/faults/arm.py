@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 from scanbench.check.typed.condition import BadCondition, compile_condition
-from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import Generate, Recover, clash, settled_ref, unfitted
+from scanbench.faults.details import choose
+from scanbench.faults.inject import Generate, Recover, choose_all, settled_ref, unfitted
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, error_of, find_error
 from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count, waits_first
@@ -224,18 +224,12 @@ def unmeant(wanted: Wanted, view: View, started: bool = False) -> Refusal | None
 
 
 def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
-    seen: list[Chosen] = []
-    for index, ref in enumerate(wanted.errors):
-        entry = find_error(view.model, ref.id)
-        if isinstance(entry, Refusal):
-            return entry
-        chosen = choose(entry, dict(ref.details), view.program.layout)
-        if isinstance(chosen, Refusal):
-            return chosen
-        if any(clash(chosen, other) for other in seen):
-            return Refusal(f"{entry.id} is there twice: one error can be present only once")
-        seen.append(chosen)
-        if (unfit := unfitted(view.model, chosen)) is not None:
+    chosen = choose_all(view, wanted.errors)
+    if isinstance(chosen, Refusal):
+        return chosen
+    for index, each in enumerate(chosen):
+        entry = each.error
+        if (unfit := unfitted(view.model, each)) is not None:
             return unfit
         if entry.severity != "fatal":
             continue

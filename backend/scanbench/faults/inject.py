@@ -57,7 +57,7 @@ class Generate(Command):
 
     def settled(self, view: View) -> "Generate":
         """With what tells its instances apart, and with what gives way."""
-        chosen = _choose_all(view, self.errors)
+        chosen = choose_all(view, self.errors)
         if isinstance(chosen, Refusal):
             return self
         present = view.derived(ACTIVE)
@@ -72,7 +72,7 @@ class Generate(Command):
     def plan(self, view: View) -> Plan | Refusal:
         """Everything that the device would set."""
         present = view.derived(ACTIVE)
-        chosen = _choose_all(view, self.errors)
+        chosen = choose_all(view, self.errors)
         if isinstance(chosen, Refusal):
             return chosen
         known = present_choices(view, present)
@@ -162,7 +162,7 @@ class Recover(Command):
         off = [one for id in ids for one in others.pop(id)]
         named = list(ids)
         for ref in settled.numbers:
-            one = _choose_all(view, (ref,))
+            one = choose_all(view, (ref,))
             if isinstance(one, Refusal) or ref.id not in others or one[0] not in others[ref.id]:
                 return Refusal(
                     f"{ref.id} is not generated with this number: there is nothing to recover", present_texts(present)
@@ -258,7 +258,7 @@ def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list
     found: dict[str, list[Chosen]] = {}
     for id, error in present.items():
         for ref in error.refs:
-            chosen = _choose_all(view, (ref,))
+            chosen = choose_all(view, (ref,))
             if isinstance(chosen, Refusal):
                 raise ValueError(f"the journal holds an error that the model does not take: {chosen.message}")
             found.setdefault(id, []).extend(chosen)
@@ -267,7 +267,7 @@ def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list
 
 def in_the_way(view: View, ref: ErrorRef) -> ErrorRef | None:
     """What is present so that this error cannot be raised beside it."""
-    chosen, present = _choose_all(view, (ref,)), view.derived(ACTIVE)
+    chosen, present = choose_all(view, (ref,)), view.derived(ACTIVE)
     rivals = [] if isinstance(chosen, Refusal) else _rivals(chosen[0], present, present_choices(view, present))
     return rivals[-1][0].ref if rivals else None
 
@@ -280,7 +280,8 @@ def describe(chosen: Chosen) -> str:
     return f"{chosen.error.id}{details}, code {chosen.code_text}"
 
 
-def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
+def choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
+    """These errors with their details, in the same order; a refusal where one is unknown, or two exclude each other."""
     all_: list[Chosen] = []
     for ref in refs:
         entry = find_error(view.model, ref.id)
@@ -289,13 +290,13 @@ def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
         chosen = choose(entry, dict(ref.details), view.program.layout)
         if isinstance(chosen, Refusal):
             return chosen
-        if any(clash(chosen, other) for other in all_):
+        if any(_clash(chosen, other) for other in all_):
             return Refusal(f"{entry.id} is there twice: one error can be present only once")
         all_.append(chosen)
     return all_
 
 
-def clash(one: Chosen, other: Chosen) -> bool:
+def _clash(one: Chosen, other: Chosen) -> bool:
     """Whether the device cannot have both: they are one instance, or of a kind that it has a place for one of."""
     return one.error is other.error and (not one.error.several or one.instance == other.instance)
 
@@ -320,7 +321,7 @@ def _of_kind(one: Chosen, present: Mapping[str, Active], others: Choices) -> lis
 
 def _rivals(one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
     """What is present and cannot be so together with it."""
-    return [each for each in _of_kind(one, present, others) if clash(one, each[1])]
+    return [each for each in _of_kind(one, present, others) if _clash(one, each[1])]
 
 
 def _meant(view: View, texts: Iterable[str]) -> tuple[tuple[str, ...], tuple[ErrorRef, ...]] | Refusal:
@@ -337,7 +338,7 @@ def _meant(view: View, texts: Iterable[str]) -> tuple[tuple[str, ...], tuple[Err
         if not ref.details:
             ids[ref.id] = None
             continue
-        chosen = _choose_all(view, (ref,))
+        chosen = choose_all(view, (ref,))
         if isinstance(chosen, Refusal):
             return chosen
         given = {name: value for name, value in chosen[0].details if name in dict(ref.details)}
