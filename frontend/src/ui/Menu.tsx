@@ -151,7 +151,10 @@ interface MenuButtonProps {
   /** The tooltip if it is not the name, for example why the button is disabled. */
   title?: string;
   className?: string;
+  /** Asked for at each drawing: it only says what there is. */
   items: () => readonly MenuItem[];
+  /** What opening it begins, for example to ask the server for what the items show. */
+  onOpen?: () => void;
   disabled?: boolean;
   children: ReactNode;
 }
@@ -162,6 +165,7 @@ export function MenuButton({
   title = label,
   className = "btn quiet sm",
   items,
+  onOpen,
   disabled,
   children,
 }: MenuButtonProps) {
@@ -177,6 +181,7 @@ export function MenuButton({
         aria-expanded={at !== null}
         disabled={disabled}
         onClick={(event) => {
+          if (!at) onOpen?.();
           const { left, bottom, width } = event.currentTarget.getBoundingClientRect();
           setAt(at ? null : { x: left, y: bottom + 4, minWidth: width });
         }}

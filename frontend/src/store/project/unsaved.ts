@@ -13,7 +13,7 @@ interface Unsaved {
 export const useUnsaved = create<Unsaved>(() => ({ drafts: [] }));
 
 /** In the order of the files; a text that is open here is known here best. */
-function unsavedPaths(): string[] {
+export function unsavedPaths(): string[] {
   const { files, open } = useDocuments.getState();
   const { drafts } = useUnsaved.getState();
   return files.map(({ path }) => path).filter((path) => (open[path] ? isDirty(open[path]) : drafts.includes(path)));

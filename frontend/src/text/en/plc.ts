@@ -276,6 +276,7 @@ export const plc = {
   "xmlout.writing": "Writing the file",
   "picker.export": "Export the project",
   "picker.export.hint": "as it is saved",
+  "picker.export.hint.unsaved": "as it is saved, without the edits of {count} unsaved",
   "newproject.archive.single":
     "{name} is one file of a program, and no project: create the project without it, then add it with Add files, above the explorer.",
   "newproject.archive.notes": "What is not as it was (kept in the file ImportNotes.st)",

@@ -274,6 +274,7 @@ export const plc: Record<keyof typeof english, string> = {
   "xmlout.writing": "ファイルを書いています",
   "picker.export": "プロジェクトをエクスポート",
   "picker.export.hint": "保存済みの内容",
+  "picker.export.hint.unsaved": "保存済みの内容（未保存の編集 {count} 件を除く）",
   "newproject.archive.single":
     "{name} はプログラムの一つのファイルで、プロジェクトではありません。これなしでプロジェクトを作成し、エクスプローラーの上の「ファイルの追加」で追加してください。",
   "newproject.archive.notes": "元と異なる点（ファイル ImportNotes.st に保存）",

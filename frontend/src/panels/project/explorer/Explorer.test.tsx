@@ -101,13 +101,12 @@ test("the arrow keys choose the language of a new file", async () => {
 });
 
 test("a file that somebody edited and nobody saved is marked, though it is not open here", async () => {
-  const { server } = await openPage((server) => {
+  await openPage((server) => {
     server.on("GET", "/projects/*/files", () => [{ path: "notes.csv", version: 1, author: "Mika" }]);
     server.on("GET", "/projects/*/unsaved", () => ["notes.csv"]);
   });
   render(<Explorer />);
   expect(await screen.findByTitle(t("unsaved.others"))).toBeDefined();
-  expect(server.askedOf("GET", "/projects/*/unsaved")).toBeDefined();
 });
 
 test("tasks are listed with how often they run and what; a task leads to its declaration, a program to its text", async () => {

@@ -5,6 +5,7 @@ import { showInstances } from "../../../store/plc/instances";
 import { canChooseFolder, chooseFolder } from "../../../store/project/folderOut";
 import { dropArchive, exportProject, useDropped } from "../../../store/project/newProject";
 import { useShownProgram } from "../../../store/project/shownProgram";
+import { unsavedPaths } from "../../../store/project/unsaved";
 import { openVersions } from "../../../store/project/versions";
 import { openTraceImport } from "../../../store/verify/traceImport";
 import { openVerifyRecords } from "../../../store/verify/verifyRecords";
@@ -16,6 +17,12 @@ import { FolderOut } from "./FolderOut";
 import { NewInstance } from "./NewInstance";
 import { NewProject } from "./NewProject";
 import { XmlOut } from "./XmlOut";
+
+/** What an export takes. */
+function asSaved(): string {
+  const count = unsavedPaths().length;
+  return count === 0 ? t("picker.export.hint") : t("picker.export.hint.unsaved", { count });
+}
 
 type Asking = "project" | "instance" | "xml" | FileSystemDirectoryHandle | null;
 
@@ -31,10 +38,8 @@ export function Picker() {
       <MenuButton
         label={t("picker.label")}
         className="picker"
-        items={() => {
-          void refreshApp();
-          return app ? itemsOf(app, project, instance?.id, setAsking) : [];
-        }}
+        items={() => (app ? itemsOf(app, project, instance?.id, setAsking) : [])}
+        onOpen={() => void refreshApp()}
       >
         <span className="two">
           <span className="cut">
@@ -118,14 +123,14 @@ function itemsOf(
     {
       label: t("picker.export"),
       icon: "export",
-      hint: t("picker.export.hint"),
+      hint: asSaved(),
       disabled: project === null,
       onSelect: () => project && void exportProject(project),
     },
     {
       label: t("xmlout.menu"),
       icon: "export",
-      hint: t("picker.export.hint"),
+      hint: asSaved(),
       disabled: project === null,
       onSelect: () => ask("xml"),
     },
@@ -134,7 +139,7 @@ function itemsOf(
           {
             label: t("folderout.menu"),
             icon: "folder",
-            hint: t("picker.export.hint"),
+            hint: asSaved(),
             disabled: project === null,
             onSelect: () => void askForFolder(ask),
           } satisfies MenuItem,

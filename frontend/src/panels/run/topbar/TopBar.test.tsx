@@ -1,5 +1,6 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { unsavedPaths } from "../../../store/project/unsaved";
 import { box, button, choose, menuItem, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
@@ -165,4 +166,17 @@ test("how long a scan of the past took is not known", async () => {
   await waitFor(() => expect(screen.getByTestId("cycle").textContent).toContain("12"));
   server.becomes({ state: "past", scan: 5, past: { by: "Ann", live_scan: 2000 }, cycle_us: 0.02 });
   await waitFor(() => expect(screen.getByTestId("cycle").textContent).toBe("–"));
+});
+
+test("an export says that it leaves out what is not saved", async () => {
+  const { server, user } = await openPage((server) => {
+    server.on("GET", "/projects/*/files", () => [{ path: "Main.st", version: 1, author: "Mika" }]);
+    server.on("GET", "/projects/*/unsaved", () => ["Main.st"]);
+  });
+  render(<TopBar onResetLayout={() => undefined} />);
+  await waitFor(() => expect(unsavedPaths()).toEqual(["Main.st"]));
+  const before = server.askedOf("GET", "").length;
+  await user.click(button(t("picker.label")));
+  expect(server.askedOf("GET", "").length, "the server is asked once").toBe(before + 1);
+  expect(textOf(menuItem(t("picker.export")))).toContain(t("picker.export.hint.unsaved", { count: 1 }));
 });
