@@ -1,7 +1,7 @@
 """`scanbench check`: every problem of a program, without running it."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
 
@@ -12,7 +12,9 @@ from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.faults.reaction.required_rules import problems_of
-from scanbench.problems import Severity
+from scanbench.problems import Problem, Severity
+from scanbench.reports.junit import Case
+from scanbench.reports.junit import junit as junit_text
 from scanbench.reports.program_page import program_page
 from scanbench.reports.program_report import program_report, report_json, report_lines
 from scanbench.syntax.language_file import STRICT, guess_dialect, is_language_file
@@ -34,10 +36,12 @@ def check(
     dialect: str | None = typer.Option(None, metavar="NAME", help=DIALECT_HELP),
     report: bool = typer.Option(False, help="Tell how much of the programs runs, and what stops the rest, instead."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write that report as a page."),
+    junit: Path | None = typer.Option(
+        None, metavar="FILE", help="Write a JUnit report too: a test case for each file."
+    ),
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
-    if html is not None:
-        must_be_writable(html)
+    must_be_writable(html, junit)
     sources = read_sources(paths, dialect)
     checked = check_sources(sources.texts, find_model(model, sources))
     problems = (*checked.problems, *problems_of(checked.program, sources.texts))
@@ -45,6 +49,8 @@ def check(
     told = program_report(sources.texts, problems, sources.missing) if report or html else None
     if html is not None and told is not None:
         write_text(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
+    if junit is not None:
+        write_text(junit, _junit(sources.texts, problems))
     if report and told is not None:
         if format is Format.JSON:
             typer.echo(json.dumps({**report_json(told), "errors": errors}, ensure_ascii=False))
@@ -63,6 +69,19 @@ def check(
         if errors:
             _tell_dialect(sources.texts)
     raise typer.Exit(1 if errors else 0)
+
+
+def _junit(texts: Mapping[str, str], problems: Sequence[Problem]) -> str:
+    """Each file of the program, and each other one in which there is an error."""
+    lines: dict[str, list[str]] = {name: [] for name in program_files(texts) if library_of_file(name) is None}
+    for each in problems:
+        if each.severity is Severity.ERROR:
+            lines.setdefault(each.span.file, []).append(f"{each.span}: {each.code} {each.message}")
+    cases = [
+        Case("check", name, "failure", told[0], "error", "\n".join(told)) if told else Case("check", name)
+        for name, told in lines.items()
+    ]
+    return junit_text("check", cases)
 
 
 def _count(texts: Mapping[str, str]) -> int:

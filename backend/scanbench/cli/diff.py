@@ -8,6 +8,7 @@ import typer
 
 from scanbench.cli.inputs import PARTLY, find_model_named, tell_damage, unreadable, unusable
 from scanbench.cli.interrupt import Leaving
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.engines.available import flavours
 from scanbench.history.contract import Change, Divergence
 from scanbench.history.divergence import find_divergence
@@ -17,6 +18,8 @@ from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.programs import on, programs_of
 from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.reports.junit import Case
+from scanbench.reports.junit import junit as junit_text
 from scanbench.runtime.programs import NoProgram
 from scanbench.testing.said import with_near
 from scanbench.wire.codec import ENTRIES
@@ -29,6 +32,7 @@ def diff(
     run1: Path = typer.Argument(metavar="RUN1", help="A run as the bench exports it (.scanrun), or `run --record` wrote it: A."),
     run2: Path = typer.Argument(metavar="RUN2", help="The run that it is compared with: B."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: that the runs are the same, and that all was compared."),
 ) -> None:  # fmt: skip
     """Compare two runs scan by scan: the first scan after which anything differs, and what.
 
@@ -36,6 +40,7 @@ def diff(
     without a common variable; 4: the same in what could be compared, but not everything could: a variable is only in one
     of them or has another type, or a file is damaged, and a part of its run is lost.
     """
+    must_be_writable(junit)
     of = programs_of(_Checked().program, on(Leaving(flavours())))
     try:
         with RunReader(run1, of, ENTRIES, texts_in) as one, RunReader(run2, of, ENTRIES, texts_in) as other:
@@ -49,6 +54,8 @@ def diff(
             unreadable(Path(error.__cause__.filename), error.__cause__)
         unusable(with_near(str(error), error.near), error.__cause__)
     typer.echo(json.dumps(_data(found)) if as_json else "\n".join(_text(found)))
+    if junit is not None:
+        write_text(junit, junit_text(f"{run1.name} and {run2.name}", _cases(found, any(lost))))
     if found.scan is not None:
         raise typer.Exit(1)
     if found.same == "nothing":
@@ -129,6 +136,20 @@ def _text(found: Divergence) -> list[str]:
         more = f" and {len(found.marks) - 10} more stretches" if len(found.marks) > 10 else ""
         lines += ["", f"They differ after scans {stretches}{more}"]
     return lines
+
+
+def _cases(found: Divergence, lost: bool) -> tuple[Case, Case]:
+    """For a build server: is it the same, and was all of it compared?"""
+    text = "\n".join(_text(found))
+    same = Case("diff", "the runs are the same", text=text)
+    if found.scan is not None:
+        same = Case("diff", same.name, "failure", f"after scan {found.scan}: {found.text}", found.cause, text)
+    elif found.same == "nothing":
+        same = Case("diff", same.name, "skipped", found.text)
+    why = [found.text] * (found.same in ("nothing", "partly"))
+    why += ["a file is damaged, and a part of its run is lost"] * lost
+    whole = Case("diff", "all of both runs is compared")
+    return same, Case("diff", whole.name, "error", ". ".join(why), "not_compared", text) if why else whole
 
 
 def _table(rows: list[tuple[str, str, str]]) -> list[str]:

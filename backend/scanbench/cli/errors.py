@@ -175,8 +175,7 @@ def sweep_errors(
     Each run is compared with the same run without the error. Exit 0; 1: an error did less than --require says, or the
     program does not compile; 2: wrong usage; 130: interrupted, no finding so far.
     """
-    for path in filter(None, (junit, html)):
-        must_be_writable(path)
+    must_be_writable(junit, html)
     sources = read_sources([project], dialect)
     plc = find_model(model, sources)
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)

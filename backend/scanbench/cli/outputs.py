@@ -5,8 +5,14 @@ from pathlib import Path
 from scanbench.cli.inputs import usage
 
 
-def must_be_writable(path: Path) -> None:
-    """Before anything is computed: nobody waits for a report that has no place."""
+def must_be_writable(*paths: Path | None) -> None:
+    """Before anything is computed: nobody waits for a report that has no place. None: that one is not wanted."""
+    for path in paths:
+        if path is not None:
+            _must_be_writable(path)
+
+
+def _must_be_writable(path: Path) -> None:
     new = not path.exists()
     try:
         path.open("ab").close()

@@ -10,6 +10,7 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import PARTLY, find_model_named, unusable_run, usage
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
@@ -19,8 +20,12 @@ from scanbench.recording.gaps import LostScans
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
+from scanbench.reports.junit import Case
+from scanbench.reports.junit import junit as junit_text
 from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.wire.codec import ENTRIES
+
+_SAME = "the run comes out as it was recorded"
 
 
 def replay(
@@ -28,6 +33,7 @@ def replay(
     scans: int | None = typer.Option(None, min=0, metavar="N", help="Stop before scan N; else at the end of the run."),
     engine: EngineChoice = typer.Option(EngineChoice.NATIVE, help="both: compare the engines after every scan too."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: that the run came out as it was recorded, and that all of it is there."),
 ) -> None:  # fmt: skip
     """Replay a run and compare it with every checkpoint in it.
 
@@ -35,6 +41,8 @@ def replay(
     4: the file is damaged, and all that can still be read was the same; 130: interrupted, the same so far. A last write
     that did not come to its end, as after a kill, is no damage.
     """
+
+    must_be_writable(junit)
 
     def programs_of(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
         return LoadedPrograms(*(load_kept(each, ENGINES[engine]) for each in kept.values()))
@@ -49,8 +57,12 @@ def replay(
     except Unreadable as error:
         unusable_run(path, error)
     except (Diverged, Differs) as difference:
+        if junit is not None:
+            write_text(junit, junit_text(path.name, (Case("replay", _SAME, "failure", str(difference), "difference"),)))
         typer.echo(f"scanbench: {path}: {difference}", err=True)
         raise typer.Exit(3) from None
+    if junit is not None:
+        write_text(junit, junit_text(path.name, _cases(result)))
     typer.echo(json.dumps(asdict(result)) if as_json else _text(result))
     if result.damaged:
         typer.echo(f"scanbench: {path}: {result.damage}", err=True)
@@ -83,6 +95,13 @@ def _text(result: Replayed) -> str:
     if result.damage and not result.damaged:
         lines.append(f"note: {result.damage}")
     return "\n".join(lines)
+
+
+def _cases(result: Replayed) -> tuple[Case, Case]:
+    """For a build server: what is there was the same, and is all of it there?"""
+    text, name = _text(result), "all of the run is there"
+    whole = Case("replay", name, "error", result.damage, "damaged", text) if result.damaged else Case("replay", name)
+    return Case("replay", _SAME, text=text), whole
 
 
 def _stretch(gap: LostScans) -> str:

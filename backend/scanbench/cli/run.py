@@ -11,10 +11,21 @@ from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import DIALECT_HELP, Sources, below, find_model, problem_json, read_sources, usage
 from scanbench.cli.interrupt import interruptible, leaving
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
-from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, texts, values
+from scanbench.cli.run_report import (
+    Result,
+    differ_junit,
+    nothing_ran,
+    report_json,
+    report_text,
+    run_junit,
+    texts,
+    trap_text,
+    values,
+)
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observed import observed_engine
@@ -75,12 +86,14 @@ def run(
     engine: EngineChoice = typer.Option(EngineChoice.NATIVE, help="both: run both and compare whole images every scan."),
     hash: bool = typer.Option(False, "--hash", help="Print the SHA-256 of the image."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: that the program ran without a run-time error, and that each command was taken."),
 ) -> None:  # fmt: skip
     """Run a program. A command @SCAN is applied before that scan; scans count from 0.
 
     Exit 0 when it ran; 1: it does not compile; 2: wrong usage, a command was refused, or --until was never met; 3: the
     engines differ; 4: the PLC trapped; 130: interrupted by Ctrl-C, what is printed is of the scans that ran.
     """
+    must_be_writable(junit)
     sources = read_sources([path], dialect)
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
     commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine, scans)
@@ -100,23 +113,31 @@ def run(
             )  # fmt: skip
             if recording is not None:
                 check_whole(recording)
-    except TooLarge as error:
-        usage(f"{path}: {error}")
-    except Differs as difference:
-        _differ(difference, problems, as_json)
+    except (TooLarge, Differs) as error:
+        _fail(error, path, problems, as_json, junit)
     report_json(result, shown, problems, hash) if as_json else report_text(result, shown, hash)
-    _end(result, commands, until, interrupt.asked)
+    _end(result, _untaken(result, commands), until, interrupt.asked, junit, path.name)
 
 
 def _engine(choice: EngineChoice, scans: int) -> Callable[[Program, bytearray], Engine]:
     return leaving(engine_for(scans)) if choice is EngineChoice.NATIVE else ENGINES[choice]
 
 
-def _differ(difference: Differs, problems: list[dict[str, str | int]], as_json: bool) -> NoReturn:
-    """Says where the engines came to a different image, and ends the command."""
+def _write(junit: Path | None, text: str) -> None:
+    if junit is not None:
+        write_text(junit, text)
+
+
+def _fail(
+    error: TooLarge | Differs, path: Path, problems: list[dict[str, str | int]], as_json: bool, junit: Path | None
+) -> NoReturn:
+    """The program is too large, or the engines came to a different image: says so, and ends the command."""
+    if isinstance(error, TooLarge):
+        usage(f"{path}: {error}")
+    _write(junit, differ_junit(path.name, str(error)))
     if as_json:
-        typer.echo(nothing_ran(problems, difference=str(difference)))
-    typer.echo(f"scanbench: {difference}", err=True)
+        typer.echo(nothing_ran(problems, difference=str(error)))
+    typer.echo(f"scanbench: {error}", err=True)
     raise typer.Exit(3) from None
 
 
@@ -151,19 +172,28 @@ def _commands(program: Program, options: Options, engine: EngineChoice, scans: i
     return commands
 
 
-def _end(result: Result, commands: Sequence[tuple[int, Command]], until: str | None, interrupted: bool) -> None:
-    """What did not go as it was asked for, on stderr, and the exit code."""
-    for scan, _ in commands:
-        if scan > result.scans:
-            typer.echo(f"scanbench: the command for scan {scan} was not applied: the run ended before it", err=True)
-    for refused in result.refused:
-        why = with_near(refused.refusal.message, refused.refusal.near)
-        typer.echo(f"scanbench: refused before scan {refused.scan}: {why}", err=True)
+def _untaken(result: Result, commands: Sequence[tuple[int, Command]]) -> list[str]:
+    """What of the commands did not come to pass, a sentence each."""
+    late = [
+        f"the command for scan {scan} was not applied: the run ended before it"
+        for scan, _ in commands if scan > result.scans
+    ]  # fmt: skip
+    return late + [
+        f"refused before scan {each.scan}: {with_near(each.refusal.message, each.refusal.near)}"
+        for each in result.refused
+    ]
+
+
+def _end(
+    result: Result, untaken: Sequence[str], until: str | None, interrupted: bool, junit: Path | None, name: str
+) -> None:
+    """What did not go as it was asked for, on stderr and as JUnit, and the exit code."""
+    _write(junit, run_junit(name, result, untaken, until, interrupted))
+    for each in untaken:
+        typer.echo(f"scanbench: {each}", err=True)
     trap = result.resource.trap
     if trap is not None:
-        typer.echo(
-            f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}", err=True
-        )
+        typer.echo(trap_text(trap), err=True)
         raise typer.Exit(4)
     if interrupted:
         typer.echo(f"scanbench: interrupted after {result.scans:,} scans", err=True)

@@ -2,12 +2,15 @@
 
 import hashlib
 import json
+from collections.abc import Sequence
 
 import typer
 
 from scanbench.program.sites import TrapKind
 from scanbench.recording.headless import HeadlessRun
+from scanbench.reports.junit import Case, junit
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.trap import TrapInfo
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import read_violations
 from scanbench.symbols.whole import Worth, worth, worth_text
@@ -17,6 +20,7 @@ Shown = list[tuple[str, Symbol]]
 """What is printed: the path as it was asked for, and the variable."""
 VIOLATIONS_SHOWN = 20
 """Places of violations that are printed as text: an array of blocks has hundreds."""
+_RUNS, _TAKEN = "the program runs", "each command is taken"
 Result = HeadlessRun[dict[str, Json]]
 
 
@@ -66,6 +70,31 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
         typer.echo(note, err=True)
     seconds = f"{result.scans * resource.program.interval_ns / 1e9:,.6f}".rstrip("0").rstrip(".")
     typer.echo(f"{result.scans:,} scans, {seconds} s of PLC time", err=True)
+
+
+def run_junit(name: str, result: Result, untaken: Sequence[str], until: str | None, interrupted: bool) -> str:
+    """For a build server: did the program run, was each command taken?"""
+    trap, ran = result.resource.trap, Case("run", _RUNS)
+    if trap is not None:
+        ran = Case("run", _RUNS, "failure", trap_text(trap), "trap")
+    elif interrupted:
+        ran = Case("run", _RUNS, "error", f"interrupted after {result.scans:,} scans", "interrupted")
+    elif until is not None and not result.met:
+        ran = Case("run", _RUNS, "failure", f"after {result.scans:,} scans it was not so that {until}", "until")
+    cases = [ran, Case("run", _TAKEN)]
+    if untaken:
+        cases[1] = Case("run", _TAKEN, "error", untaken[0], "refused", "\n".join(untaken))
+    return junit(name, cases)
+
+
+def differ_junit(name: str, difference: str) -> str:
+    """The same of a run in which the engines came to a different image."""
+    return junit(name, [Case("run", _RUNS, "failure", difference, "difference")])
+
+
+def trap_text(trap: TrapInfo) -> str:
+    """Where the program stopped, and why."""
+    return f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}"
 
 
 def values(resource: Resource, shown: Shown) -> dict[str, Json]:

@@ -6,15 +6,18 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import unreadable, unusable_run, usage
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.replay import load_kept
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.history.scenario import BadScenario, Scenario, project_of, read_scenario, write_scenario
 from scanbench.history.scenario_of_run import scenario_of
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.reports.junit import Case
+from scanbench.reports.junit import junit as junit_text
 from scanbench.runtime.programs import LoadedPrograms
 from scanbench.testing.attempts import Attempts
-from scanbench.testing.play import nothing_expected
+from scanbench.testing.play import Failed, nothing_expected
 from scanbench.testing.project import BrokenProject, Project
 from scanbench.testing.shrink import shrink
 from scanbench.wire.codec import ENTRIES
@@ -50,9 +53,11 @@ def _programs(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
 @scenario.command("run")
 def run_scenarios(
     paths: list[Path] = typer.Argument(metavar="FILE", help="Scenario files."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each file."),
 ) -> None:  # fmt: skip
     """Play scenarios. Exit 0 when all of them were as expected, 1 when one was not, 2: wrong usage, 3: one expects nothing."""
-    failures, empty = 0, 0
+    must_be_writable(junit)
+    failures, empty, cases = 0, 0, list[Case]()
     for path in paths:
         found = _read(path)
         with Attempts(_project(path, found)) as attempt:
@@ -61,8 +66,21 @@ def run_scenarios(
         typer.echo(f"{path}: {said if failed is None else failed.message}")
         failures += failed is not None
         empty += not found.expect
+        cases.append(_case(path, found, failed))
+    if junit is not None:
+        write_text(junit, junit_text("scenarios", cases))
     if failures or empty:
         raise typer.Exit(1 if failures else NOTHING_EXPECTED)
+
+
+def _case(path: Path, found: Scenario, failed: Failed | None) -> Case:
+    if failed is not None:
+        return Case(
+            "scenario", str(path), "failure", failed.message, "trap" if failed.what == "trap" else "expectation"
+        )
+    if not found.expect:
+        return Case("scenario", str(path), "skipped", nothing_expected(found))
+    return Case("scenario", str(path))
 
 
 @scenario.command("shrink")

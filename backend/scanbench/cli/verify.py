@@ -17,7 +17,6 @@ from scanbench.cli.progress import progress
 from scanbench.cli.run_options import Options
 from scanbench.cli.verify_controller import INTERVAL_MS, SAMPLES, Controller
 from scanbench.cli.verify_subject import Given, Subject, opened
-from scanbench.cli.verify_text import verify_text
 from scanbench.engines.available import flavours
 from scanbench.public import iso
 from scanbench.recording.programs import Make, on, reference
@@ -25,6 +24,7 @@ from scanbench.recording.reader import Unreadable
 from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
+from scanbench.reports.report_text import verify_junit, verify_text
 from scanbench.runtime.clock import wall_time
 from scanbench.testing.command_text import AUTHOR
 from scanbench.testing.said import with_near
@@ -67,6 +67,7 @@ def verify(
     engine: ControlEngine = typer.Option(ControlEngine.NATIVE, help="What a run is run again with; the monitor is the reference interpreter in any case."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to read, print or keep too."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: that all was compared, that there is no difference, and of a log each output."),
 ) -> None:  # fmt: skip
     """Run a program twice and compare: what ran (native code, or a real controller of which there is a log) and the
     reference interpreter, on the same inputs.
@@ -76,8 +77,7 @@ def verify(
     damaged, and a part of the run is lost; 130: interrupted, no difference so far.
     """
     options = Options(set, force, generate, clear, mode, restart)
-    if html is not None:
-        must_be_writable(html)
+    must_be_writable(html, junit)
     read = None if controller is None else Controller(controller, tuple(node), samples, every)
     _one_source(trace, map, read)
     wanted = _range(range_)
@@ -91,9 +91,15 @@ def verify(
         typer.echo("scanbench: interrupted before the first scan was verified", err=True)
         raise typer.Exit(INTERRUPTED) from None
     typer.echo(to_json(report) if as_json else "\n".join(verify_text(report)))
+    _write(report, subject.lost, html, junit)
+    _end(report, stopped, subject.lost)
+
+
+def _write(report: Report, lost: bool, html: Path | None, junit: Path | None) -> None:
     if html is not None:
         write_text(html, to_html(report))
-    _end(report, stopped, subject.lost)
+    if junit is not None:
+        write_text(junit, verify_junit(report, "the run file is damaged: a part of its run is lost" if lost else ""))
 
 
 def _range(text: str) -> Range:

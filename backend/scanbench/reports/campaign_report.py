@@ -3,10 +3,8 @@
 from dataclasses import asdict, dataclass
 from typing import Literal
 
-from lxml import etree
-
 from scanbench.history.campaign.contract import OUTCOMES, Campaign, Outcome, Trial
-from scanbench.plcmodel.document import xml_text
+from scanbench.reports.junit import Case, junit
 from scanbench.reports.report_json import Json
 
 FORMAT = 1
@@ -32,6 +30,8 @@ class CampaignReport:
     of: int
     """So many were to be tried."""
     require: Require = "any"
+    allowed: int = 0
+    """So many findings are let pass."""
 
     @property
     def whole(self) -> bool:
@@ -44,6 +44,11 @@ class CampaignReport:
         if self.require == "program":
             return tuple(each for each in self.campaign.trials if each.silent)
         return tuple(each for each in self.campaign.trials if each.outcome == "nothing")
+
+    @property
+    def failed(self) -> bool:
+        """Whether there are more findings than are let pass."""
+        return len(self.findings) > self.allowed
 
 
 def campaign_text(report: CampaignReport) -> list[str]:
@@ -58,6 +63,10 @@ def campaign_text(report: CampaignReport) -> list[str]:
     lines += [f"  {report.campaign.count(each):>6}  {WORDS[each]}" for each in OUTCOMES if report.campaign.count(each)]
     silent = sum(each.silent for each in trials)
     lines.append(f"  {silent:>6}  made an output wrong, and the program did not notice it")
+    if report.allowed:
+        lines.append(
+            f"  {len(report.findings):>6}  {'finding' if len(report.findings) == 1 else 'findings'}, {report.allowed} are allowed"
+        )
     for each in report.findings:
         lines += ["", *trial_text(each)]
     return lines
@@ -86,7 +95,8 @@ def campaign_json(report: CampaignReport) -> dict[str, Json]:
     return {
         "format": FORMAT, "project": report.project, "model": report.model, "seed": wanted.seed, "count": wanted.count,
         "first": wanted.first, "last": wanted.last, "window": wanted.window, "kinds": list(wanted.kinds),
-        "alarms": list(wanted.alarms), "require": report.require, "whole": report.whole,
+        "alarms": list(wanted.alarms), "require": report.require,
+        "allowed": report.allowed, "whole": report.whole,
         "outcomes": {each: report.campaign.count(each) for each in OUTCOMES},
         "silent": sum(each.silent for each in report.campaign.trials),
         "findings": [each.number for each in report.findings],
@@ -102,31 +112,24 @@ def _trial(trial: Trial) -> Json:
 
 
 def campaign_junit(report: CampaignReport) -> str:
-    """A test case for each disturbance: it fails where it is a finding, and is skipped where it did not come about. One more
-    is an error where not all were tried."""
-    trials, findings = report.campaign.trials, report.findings
-    missed = [each for each in trials if each.outcome == "missed"]
-    errors = int(not report.whole)
-    numbers = {"tests": len(trials) + errors, "failures": len(findings), "skipped": len(missed), "errors": errors}
-    totals = {name: str(number) for name, number in numbers.items()}
-    root = etree.Element("testsuites", totals)
-    suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{report.project} on {report.model}"), **totals})
-    name = f"campaign.seed{report.campaign.wanted.seed}"
-    if errors:
-        case = etree.SubElement(suite, "testcase", {"classname": name, "name": "all disturbances are tried"})
-        etree.SubElement(case, "error", {"message": _broken_off(report), "type": "broken_off"})
-    for each in trials:
-        about = {"classname": name, "name": xml_text(f"{each.number}: {each.text}")}
-        case = etree.SubElement(suite, "testcase", about)
-        told = "\n".join(trial_text(each))
-        if each in findings:
-            failed = {"message": xml_text(_finding(each)), "type": each.outcome.replace(" ", "_")}
-            etree.SubElement(case, "failure", failed).text = xml_text(told)
-        elif each in missed:
-            etree.SubElement(case, "skipped", {"message": xml_text(each.why)})
-        else:
-            etree.SubElement(case, "system-out").text = xml_text(told)
-    return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
+    """A test case for each disturbance: it fails where it is a finding, and is skipped where it did not come about, or where no more
+    findings than are let pass. One more is an error where not all were tried."""
+    group = f"campaign.seed{report.campaign.wanted.seed}"
+    cases = [_case(group, each, report) for each in report.campaign.trials]
+    if not report.whole:
+        cases.insert(0, Case(group, "all disturbances are tried", "error", _broken_off(report), "broken_off"))
+    return junit(f"{report.project} on {report.model}", cases)
+
+
+def _case(group: str, trial: Trial, report: CampaignReport) -> Case:
+    name, told = f"{trial.number}: {trial.text}", "\n".join(trial_text(trial))
+    if trial in report.findings and not report.failed:
+        return Case(group, name, "skipped", f"{_finding(trial)}; {report.allowed} such findings are allowed", text=told)
+    if trial in report.findings:
+        return Case(group, name, "failure", _finding(trial), trial.outcome.replace(" ", "_"), told)
+    if trial.outcome == "missed":
+        return Case(group, name, "skipped", trial.why)
+    return Case(group, name, text=told)
 
 
 def _broken_off(report: CampaignReport) -> str:

@@ -5,8 +5,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import cast, get_args
 
-from lxml import etree
-
 from scanbench.faults.details import code_text_raised
 from scanbench.faults.reaction.compare import Outcome, SweepChange, judged
 from scanbench.faults.reaction.reaction import OutputRestart, RequiredResult, Verdict
@@ -14,9 +12,9 @@ from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import error_of, named_reference
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
-from scanbench.plcmodel.document import xml_text
 from scanbench.problems import Problem
 from scanbench.reports import record_words
+from scanbench.reports.junit import Case, junit
 from scanbench.reports.reason import reason_of, some
 from scanbench.reports.required_words import (
     NOT_TRIED,
@@ -304,38 +302,23 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: R
     """A test case for each error and state; it fails where an error of these severities did less than is required. One more for each
     mistake in what is required: it fails."""
     failed = result.unhandled(severities, required)
-    skipped = [cell for cell in result.cells if cell.reaction is None and cell not in failed]
-    numbers = {
-        "tests": len(result.cells) + len(result.problems), "failures": len(failed) + len(result.problems),
-        "skipped": len(skipped), "errors": 0,
-    }  # fmt: skip
-    totals = {name: str(number) for name, number in numbers.items()}
-    root = etree.Element("testsuites", totals)
-    suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
-    for cell in result.cells:
-        code = result.code(cell.error)
-        name = f"{cell.error} ({code})" if code else cell.error
-        about = {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
-        case = etree.SubElement(suite, "testcase", about)
-        if cell in failed:
-            about = {
-                "message": xml_text(_failure(result.entry(cell), cell, required)),
-                "type": verdict_of(cell) or "not_tried",
-            }
-            told = "\n".join((reason(cell), *required_lines(cell)))
-            etree.SubElement(case, "failure", about).text = xml_text(told)
-        elif cell.reaction is None:
-            etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
-        else:
-            told = "\n".join((f"{WORDS[verdict_of(cell)]}: {reason(cell)}", *required_lines(cell)))
-            etree.SubElement(case, "system-out").text = xml_text(told)
-    for problem in result.problems:
-        at = {"classname": xml_text(problem.span.file), "name": f"line {problem.span.line}"}
-        case = etree.SubElement(suite, "testcase", at)
-        etree.SubElement(
-            case, "failure", {"message": xml_text(f"{NOT_TRIED}: {problem.message}"), "type": problem.code}
-        )
-    return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
+    cases = [_case(result, cell, cell in failed, required) for cell in result.cells]
+    cases += [
+        Case(each.span.file, f"line {each.span.line}", "failure", f"{NOT_TRIED}: {each.message}", each.code)
+        for each in result.problems
+    ]
+    return junit(f"{result.project} on {result.model}", cases)
+
+
+def _case(result: SweepResult, cell: Cell, failed: bool, required: Required) -> Case:
+    code, verdict = result.code(cell.error), verdict_of(cell)
+    group, name = f"{result.model}.{cell.point}", f"{cell.error} ({code})" if code else cell.error
+    if failed:
+        told = "\n".join((reason(cell), *required_lines(cell)))
+        return Case(group, name, "failure", _failure(result.entry(cell), cell, required), verdict or "not_tried", told)
+    if cell.reaction is None:
+        return Case(group, name, "skipped", cell.note)
+    return Case(group, name, text="\n".join((f"{WORDS[verdict]}: {reason(cell)}", *required_lines(cell))))
 
 
 def _failure(entry: ErrorEntry, cell: Cell, required: Required) -> str:

@@ -12,6 +12,7 @@ from scanbench.public import iso
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
+from scanbench.reports.report_text import verify_junit
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.server.controller_verification import ControllerVerification
@@ -38,10 +39,12 @@ MOST_OPEN = 30
 """With those that are over: their rows are kept in memory."""
 SUFFIX = ".rows"
 _TELL_NS = 200_000_000
-Format = Literal["csv", "json", "html"]
-_MEDIA: dict[Format, str] = {
-    "csv": "text/csv; charset=utf-8", "json": "application/json", "html": "text/html; charset=utf-8",
+Format = Literal["csv", "json", "html", "junit"]
+_MEDIA: dict[Format, tuple[str, str]] = {
+    "csv": ("csv", "text/csv; charset=utf-8"), "json": ("json", "application/json"), "html": ("html", "text/html; charset=utf-8"),
+    "junit": ("xml", "application/xml"),
 }  # fmt: skip
+"""How a file of a format ends, and its type."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -362,9 +365,12 @@ def _exported(head: ReportHead, rows: Rows, format: Format) -> Exported:
         text = "".join(to_csv(report))
     elif format == "json":
         text = to_json(report)
+    elif format == "junit":
+        text = verify_junit(report)
     else:
         text = to_html(report)
-    return Exported(text, _MEDIA[format], f"{head.instance} {head.title}.{format}".replace("/", "_"))
+    ending, media = _MEDIA[format]
+    return Exported(text, media, f"{head.instance} {head.title}.{ending}".replace("/", "_"))
 
 
 def _kept(row: KeptRow) -> Kept:

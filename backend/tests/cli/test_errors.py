@@ -242,7 +242,7 @@ def test_a_report_that_cannot_be_written_is_refused_before_the_sweep(
 
 def test_a_sweep_is_told_although_its_report_cannot_be_kept(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The disk may fill up meanwhile."""
-    monkeypatch.setattr(ERRORS, "must_be_writable", lambda path: None)
+    monkeypatch.setattr(ERRORS, "must_be_writable", lambda *paths: None)
     result = scanbench("errors", "sweep", str(project), *FEW, "--junit", str(project))
     assert result.returncode == 2
     assert "memory-error" in result.stdout

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
+from lxml import etree
 
 import scanbench
 from tests.amounts import slow
@@ -21,7 +22,14 @@ def commands(name: str) -> list[str]:
     content: dict[str, Any] = yaml.safe_load((ROOT / "ci" / name).read_text())
     if name.startswith("gitlab"):
         return list(content["plc"]["script"])
-    return [each["run"] for each in content["jobs"]["test"]["steps"] if each.get("name") in ("check", "test")]
+    return [
+        each["run"] for each in content["jobs"]["test"]["steps"] if each.get("name") in ("check", "test", "campaign")
+    ]
+
+
+def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    path = {"PATH": f"{BIN}:/usr/bin:/bin"}
+    return subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, check=False, env=path)
 
 
 @slow
@@ -30,16 +38,16 @@ def test_its_commands_do_what_it_says(name: str, tmp_path: Path) -> None:
     copytree(Path(scanbench.__file__).parent / "samples" / "conveyor", tmp_path / "plc")
     (tmp_path / "tests").mkdir()
     (tmp_path / "tests" / "test_it.py").write_text(TEST)
-    assert len(commands(name)) == 2
+    assert [each.split()[:2] for each in commands(name)] == [
+        ["scanbench", "check"], ["pytest", "--scanbench-project"], ["scanbench", "campaign"]
+    ]  # fmt: skip
     for command in commands(name):
-        done = subprocess.run(
-            command,
-            shell=True,
-            cwd=tmp_path,
-            capture_output=True,
-            text=True,
-            check=False,
-            env={"PATH": f"{BIN}:/usr/bin:/bin"},
-        )
+        done = run(command, tmp_path)
         assert done.returncode == 0, f"{command}\n{done.stdout}{done.stderr}"
     assert 'failures="0"' in (tmp_path / "report.xml").read_text()
+    campaign = etree.parse(tmp_path / "campaign.xml").getroot()
+    assert (campaign.get("tests"), campaign.get("failures"), campaign.get("errors")) == ("100", "0", "0")
+    allowed = [each for each in campaign.findall(".//skipped") if "are allowed" in str(each.get("message"))]
+    assert 0 < len(allowed) <= 20
+    stricter = commands(name)[2].replace("--allow 20", f"--allow {len(allowed) - 1}")
+    assert run(stricter, tmp_path).returncode == 1

@@ -68,6 +68,7 @@ def test_a_verification_says_what_was_compared(plc: Plc) -> None:
     assert plc.verification_rows(number, differing=True)["rows"] == []
     assert len(plc.export_verification(number).splitlines()) > 10
     assert json.loads(plc.export_verification(number, "json"))
+    assert b'tests="2"' in plc.export_verification(number, "junit")
     assert plc.keep_verification(number, "nightly")["info"]["compared"] == 10
     assert [each["id"] for each in plc.verifications] == [number]
     plc.delete_verification(number)

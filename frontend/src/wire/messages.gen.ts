@@ -15992,7 +15992,7 @@ export interface operations {
     export_verification_record: {
         parameters: {
             query?: {
-                format?: "csv" | "json" | "html";
+                format?: "csv" | "json" | "html" | "junit";
             };
             header?: never;
             path: {
@@ -16188,7 +16188,7 @@ export interface operations {
     export_verification: {
         parameters: {
             query?: {
-                format?: "csv" | "json" | "html";
+                format?: "csv" | "json" | "html" | "junit";
             };
             header?: never;
             path: {

@@ -12,7 +12,9 @@ import type {
 
 /** The source of rows. */
 export type VerifySource = { kind: "verification" | "record"; id: number };
-export type ExportFormat = "csv" | "json" | "html";
+export type ExportFormat = "csv" | "json" | "html" | "junit";
+/** How the name of such a file ends. */
+export const endingOf = (format: ExportFormat): string => (format === "junit" ? "xml" : format);
 
 const base = ({ kind, id }: VerifySource) =>
   kind === "verification" ? `/verifications/${id}` : `/verification-records/${id}`;

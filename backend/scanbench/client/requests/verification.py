@@ -128,7 +128,7 @@ class Verifications(Asks):
         return self._send(shapes.VerificationInfo, "POST", path, {"cells": list(cells)})
 
     @asked
-    def export_verification(self, number: int, format: Literal["csv", "json", "html"] = "csv") -> Steps[bytes]:
+    def export_verification(self, number: int, format: Literal["csv", "json", "html", "junit"] = "csv") -> Steps[bytes]:
         """All rows that are kept, as a file."""
         return self._fetch(f"/api/verifications/{number}/export", format=format)
 

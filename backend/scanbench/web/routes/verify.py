@@ -25,7 +25,7 @@ from scanbench.wire.verification import UseRow
 
 router = APIRouter(prefix="/api", tags=["verification"])
 Count = Annotated[int, Query(ge=0, le=500)]
-Format = Literal["csv", "json", "html"]
+Format = Literal["csv", "json", "html", "junit"]
 
 
 @router.get("/instances/{instance}/verifications")

@@ -7,7 +7,7 @@ import type { RangeWish } from "../../logic/verify/verify";
 import { t } from "../../text";
 import { Refused } from "../../wire/rest";
 import type { DriveVerification, NewVerification, VerificationInfo, VerificationRecord } from "../../wire/types";
-import { type ExportFormat, type VerifySource, verify as wire } from "../../wire/verify";
+import { type ExportFormat, endingOf, type VerifySource, verify as wire } from "../../wire/verify";
 import { saveFile } from "../page/download";
 import { showPanel } from "../page/navigate";
 import { useBench } from "../plc/bench";
@@ -237,7 +237,7 @@ export async function exportVerification(format: ExportFormat): Promise<void> {
   if (!shown) return;
   try {
     const name = shown.record?.name ?? `${shown.info.title}, ${shown.info.first}`;
-    saveFile(await wire.export(shown.source, format), `${name.replace(/[\\/:*?"<>|]/g, "_")}.${format}`);
+    saveFile(await wire.export(shown.source, format), `${name.replace(/[\\/:*?"<>|]/g, "_")}.${endingOf(format)}`);
   } catch (error) {
     fail(error);
   }

@@ -3,7 +3,7 @@
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import type { VerificationRecord } from "../../wire/types";
-import { type ExportFormat, verify } from "../../wire/verify";
+import { type ExportFormat, endingOf, verify } from "../../wire/verify";
 import { verifyRecords as wire } from "../../wire/verifyRecords";
 import { saveFile } from "../page/download";
 import { useBench } from "../plc/bench";
@@ -47,7 +47,7 @@ export function openRecord(record: VerificationRecord): void {
 export async function exportRecord({ id, name }: VerificationRecord, format: ExportFormat): Promise<void> {
   try {
     const file = await verify.export({ kind: "record", id }, format);
-    saveFile(file, `${name.replace(/[\\/:*?"<>|]/g, "_")}.${format}`);
+    saveFile(file, `${name.replace(/[\\/:*?"<>|]/g, "_")}.${endingOf(format)}`);
   } catch (error) {
     set({ trouble: messageOf(error) });
   }

@@ -218,6 +218,7 @@ export const disturb = {
   "verify.records.export.csv": "CSV",
   "verify.records.export.html": "HTML report",
   "verify.records.export.json": "JSON",
+  "verify.records.export.junit": "JUnit",
   "verify.records.filter": "Filter by name, person, instance",
   "verify.records.loading": "Loading the saved verifications…",
   "verify.records.name": "Name",

@@ -71,6 +71,7 @@ export const verify = {
   "verify.export.csv": "CSV table",
   "verify.export.html": "HTML report",
   "verify.export.json": "JSON record",
+  "verify.export.junit": "JUnit report",
   "verify.export": "Export",
   "verify.facts": "What differs",
   "verify.first": "First difference",

@@ -219,6 +219,7 @@ export const disturb: Record<keyof typeof english, string> = {
   "verify.records.export.csv": "CSV",
   "verify.records.export.html": "HTML レポート",
   "verify.records.export.json": "JSON",
+  "verify.records.export.junit": "JUnit",
   "verify.records.filter": "名前、人、インスタンスで絞り込み",
   "verify.records.loading": "読み込んでいます…",
   "verify.records.name": "名前",

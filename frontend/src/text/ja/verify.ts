@@ -70,6 +70,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.export.csv": "CSV の表",
   "verify.export.html": "HTML レポート",
   "verify.export.json": "JSON の記録",
+  "verify.export.junit": "JUnit のレポート",
   "verify.export": "エクスポート",
   "verify.facts": "相違の内容",
   "verify.first": "最初の相違",

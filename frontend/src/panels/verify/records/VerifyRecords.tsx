@@ -21,7 +21,7 @@ import { useColumns } from "../../../ui/useColumns";
 import type { VerificationRecord } from "../../../wire/types";
 import "./verifyrecords.css";
 
-const FORMATS = ["html", "csv", "json"] as const;
+const FORMATS = ["html", "csv", "json", "junit"] as const;
 const WIDTH = 960;
 /** From this number on, the list has a filter. */
 const MANY = 8;

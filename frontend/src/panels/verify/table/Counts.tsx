@@ -176,7 +176,7 @@ function Export({ shown, onKeep }: { shown: ShownVerification; onKeep: () => voi
     <MenuButton
       label={t("verify.export")}
       items={() => [
-        ...(["csv", "json", "html"] as const).map((format) => ({
+        ...(["csv", "json", "html", "junit"] as const).map((format) => ({
           label: t(`verify.export.${format}`),
           icon: "export" as const,
           onSelect: () => void exportVerification(format),

@@ -1,11 +1,12 @@
-"""What `scanbench verify` prints for people: a line of what was compared, and a block for each difference."""
+"""A verification as text for people, and as JUnit: a line of what was compared, and a block for each difference."""
 
 from collections.abc import Iterator
 
+from scanbench.reports.junit import Case, junit
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.sweep_report import count
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.contract import ENDED, Column, Mismatch, Row, VerifyCoverage
+from scanbench.verify.contract import ENDED, Column, Compared, Mismatch, Row, VerifyCoverage
 
 STRETCHES = 5
 """Of scans that were not compared that are named."""
@@ -42,20 +43,14 @@ def verify_text(report: Report) -> Iterator[str]:
             f"the record was full in {count(head.full, 'scan')}: what a scan used beyond {head.limit:,} uses of variables was not "
             "compared; --limit keeps more"
         )
-    yield _summary(report)
+    yield summary(report)
 
 
 def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
     """What of a trace was compared, and what was not."""
     yield "compared, values of each output:"
     for each in coverage.outputs:
-        parts = [f"{each.compared:,}"]
-        parts += [f"{each.differing:,} differ"] if each.differing else []
-        parts += [f"{each.allowed:,} within the tolerance"] if each.allowed else []
-        parts += [f"{each.left_open:,} within what rounded numbers leave open"] if each.left_open else []
-        parts += [f"{each.missing:,} without a value to compare"] if each.missing else []
-        parts += [f"off by {each.largest:.4g} at most"] if each.largest else []
-        yield f"  {each.path}: {', '.join(parts)}"
+        yield f"  {each.path}: {_told(each)}"
     kinds = (
         ("not compared, as they are given to the reference", coverage.inputs),
         ("not compared, columns that are mapped to nothing", coverage.ignored),
@@ -69,7 +64,47 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
             yield f"{what}: {', '.join(names[:NAMES])}{', ...' if len(names) > NAMES else ''}"
 
 
-def _summary(report: Report) -> str:
+def _told(output: Compared) -> str:
+    parts = [f"{output.compared:,}"]
+    parts += [f"{output.differing:,} differ"] if output.differing else []
+    parts += [f"{output.allowed:,} within the tolerance"] if output.allowed else []
+    parts += [f"{output.left_open:,} within what rounded numbers leave open"] if output.left_open else []
+    parts += [f"{output.missing:,} without a value to compare"] if output.missing else []
+    parts += [f"off by {output.largest:.4g} at most"] if output.largest else []
+    return ", ".join(parts)
+
+
+def verify_junit(report: Report, lost: str = "") -> str:
+    """Cases: that all was compared, that there is no difference, and of a trace each output. `lost`: what of the run is not there."""
+    head, differences = report.head, report.differences()
+    group, said = f"{head.project}.verify", summary(report)
+    nothing = report.idle or not head.compared
+    whole = Case(group, f"{head.title}: all scans are compared", text=said)
+    if nothing or head.partly or lost:
+        message = ". ".join(filter(None, (said if nothing or head.partly else "", lost)))
+        whole = Case(group, whole.name, "error", message, "not_compared", head.note)
+    same = Case(group, f"{head.title}: no difference")
+    if head.differing:
+        text = "\n\n".join("\n".join(_block(*each, report.columns)) for each in differences[:SHOWN])
+        message = differences[0][1].message if differences else said
+        same = Case(group, same.name, "failure", message, "difference", f"{text}\n\n{said}".strip())
+    elif nothing:
+        same = Case(group, same.name, "skipped", "nothing was compared")
+    outputs = () if head.coverage is None else head.coverage.outputs
+    return junit(f"{head.project} on {head.model}", (whole, same, *(_output(group, each) for each in outputs)))
+
+
+def _output(group: str, output: Compared) -> Case:
+    name, told = f"output {output.path}", _told(output)
+    if output.differing:
+        return Case(group, name, "failure", f"{output.path}: {told}", "difference")
+    if not output.compared:
+        return Case(group, name, "skipped", f"{output.path}: {told}")
+    return Case(group, name, text=f"{output.path}: {told}")
+
+
+def summary(report: Report) -> str:
+    """One sentence: what was compared, and what came of it."""
     head = report.head
     same = "no difference in what was compared" if head.skipped or head.unreached else "no difference"
     if head.coverage is not None and head.coverage.ungiven:
