@@ -83,7 +83,7 @@ test('power is drawn as the code saw it: live, halted before a block, one scan b
     await expect(page.getByText(`As the code saw it in scan ${(halted - 2).toLocaleString('en')}`)).toBeVisible();
   });
 
-  await test.step('a difference that was planted at a coil is marked there', async () => {
+  await test.step('a difference that was planted at a coil is marked there, and what follows from it on both sides', async () => {
     await mika.timeline.returnToLive();
     const verify = new Verify(page);
     await verify.show();
@@ -91,17 +91,24 @@ test('power is drawn as the code saw it: live, halted before a block, one scan b
       range: { pou: 'Gate', instance: 'Main.first' },
     });
     await expect.poll(() => verify.count('compared'), { timeout: 60_000 }).toBeGreaterThan(5);
-    const line = GATE.split('\n').findIndex((each) => each.includes('(late)')) + 1;
+    const line = GATE.split('\n').findIndex((each) => each.includes('(run)')) + 1;
     await server.post(`/instances/${server.instance}/disturbances`, {
       kind: 'result',
-      path: 'Main.first.late',
+      path: 'Main.first.run',
       site: `Gate.st:${line}`,
       bit: 0,
       probability: 1,
     });
     await expect.poll(() => verify.count('differ'), { timeout: 60_000 }).toBeGreaterThan(0);
     await verify.press('First difference');
-    await expect(rung('The pulse is over').getByText('A FALSE A′ TRUE')).toBeVisible();
-    await expect(rung('The pulse is over').getByText(/1 different, scan \d/)).toBeVisible();
+    const [holds, stuck] = [rung('The motor holds itself'), rung('A part is stuck')];
+    await expect(holds.getByText(/1 different, scan \d/)).toBeVisible();
+    await expect(holds.locator('.elemdiff.first')).toHaveText('First difference A TRUE  A′ FALSE');
+    // The contact that reads it, the input of the timer, and the wire between them.
+    await expect(stuck.locator('.elemdiff:not(.onwire)')).toHaveText(['A TRUE  A′ FALSE', 'A TRUE  A′ FALSE']);
+    await expect(stuck.locator('.elemdiff.onwire')).toHaveText('A 1  A′ 0');
+    await expect(stuck.locator('.wire[data-apart="A"]').first()).toBeAttached();
+    await expect(page.locator('.elemdiff.first')).toHaveCount(1);
+    await expect(rung('Somebody wants it').locator('.elemdiff')).toHaveCount(0);
   });
 });

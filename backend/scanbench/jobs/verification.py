@@ -15,6 +15,7 @@ from scanbench.reports.report import stretched
 from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
+from scanbench.symbols.symbols import UnknownPath
 from scanbench.verify.contract import BadRange, Begun, Column, Row, ScanVerified
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.told_once import ToldOnce
@@ -30,6 +31,8 @@ from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
     PackedRow,
+    RowFlowsAre,
+    RowFlowsOf,
     ScansDone,
     ScansVerified,
     SetInputs,
@@ -44,8 +47,18 @@ from scanbench.wire.verification import (
 
 S = TypeVar("S", bound=ScansVerified)
 _TELL_NS = 100_000_000
-Request = BeginVerify | BeginTrace | BeginController | TakeSamples | VerifyScans | VerifyStep | SetInputs | UsesOf
-REFUSALS = (Unreadable, NoProgram, RunFileError, BadEdit, BadMapping, BadTraceFile, OSError)
+Request = (
+    BeginVerify
+    | BeginTrace
+    | BeginController
+    | TakeSamples
+    | VerifyScans
+    | VerifyStep
+    | SetInputs
+    | UsesOf
+    | RowFlowsOf
+)
+REFUSALS = (Unreadable, NoProgram, RunFileError, BadEdit, BadMapping, BadTraceFile, UnknownPath, OSError)
 
 
 class VerifyJob:
@@ -60,7 +73,7 @@ class VerifyJob:
         self._growing: GrowingTrace | None = None
         self._once = ToldOnce()
 
-    def answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
+    def answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre | RowFlowsAre:
         """The answer; `Refused`."""
         try:
             return self._answer(request)
@@ -69,7 +82,7 @@ class VerifyJob:
         except REFUSALS as why:
             raise Refused(_words(why)) from why
 
-    def _answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
+    def _answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre | RowFlowsAre:
         match request:
             case BeginVerify():
                 return self._begin(request)
@@ -95,6 +108,8 @@ class VerifyJob:
                 return ScansVerified(request.ref, -1, 0, tuple(map(_packed, rows)), (), (), (), 0)
             case UsesOf():
                 return self._uses(request)
+            case RowFlowsOf():
+                return RowFlowsAre(request.ref, self._begun().flows(request.scan, request.call, request.asked))
 
     def _begun(self) -> Verifier:
         if self._verifier is None:

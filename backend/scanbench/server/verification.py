@@ -11,18 +11,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.jobs.client import DIED, FAULT, Gone, Job
 from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
-from scanbench.verify.contract import AT_END, Memory
+from scanbench.verify.contract import AT_END, Memory, VerifyFlows
 from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
+    RowFlowsAre,
+    RowFlowsOf,
     ScansDone,
     ScansVerified,
     SetInputs,
@@ -206,6 +209,10 @@ class Verification:
     async def uses(self, scan: int, call: int) -> tuple[UseRow, ...]:
         """The used-variable record of one row."""
         return (await self._ask(lambda ref: UsesOf(ref, scan, call), UsesAre)).uses
+
+    async def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
+        """What the code of an instance saw in one row, on both sides."""
+        return (await self._ask(lambda ref: RowFlowsOf(ref, scan, call, asked), RowFlowsAre)).flows
 
     # ---- going on -------------------------------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
+from scanbench.debug.flow_shown import Flows
 from scanbench.public import Hex, Public
 
 Memory = Literal["recorded", "set"]
@@ -238,6 +239,17 @@ class Use:
     control: bytes | None
     monitor: bytes | None
     place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyFlows(Public):
+    """What the code of one instance saw in one row, element by element, on both sides."""
+
+    control: Flows
+    monitor: Flows
+    line: int = 0
+    """Where the element begins that differed first: whose power or values are not the same, or that ran on one side only. 0: none did."""
+    column: int = 0
 
 
 @dataclass(frozen=True, slots=True)

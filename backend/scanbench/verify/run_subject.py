@@ -3,14 +3,16 @@
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.recording.gaps import gap_of
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
 from scanbench.verify.both import Both, View
-from scanbench.verify.contract import DEFAULT_LIMIT, BadRange, Begun, Range, Row, Use
+from scanbench.verify.contract import DEFAULT_LIMIT, BadRange, Begun, Range, Row, Use, VerifyFlows
 from scanbench.verify.control import Control
 from scanbench.verify.edits import Edit
+from scanbench.verify.flow_record import flows_of
 from scanbench.verify.monitor import Monitor
 from scanbench.verify.passes import edited_row, inputs_of
 from scanbench.verify.places import Places
@@ -115,6 +117,11 @@ class RunSubject:
         """See `Subject`."""
         self._again(scan)
         return self._guarded(scan, lambda: uses_of(self._sides(), call))
+
+    def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
+        """See `Subject`."""
+        self._again(scan)
+        return self._guarded(scan, lambda: flows_of(self._sides(), call, asked))
 
     def inputs(self, scan: int, call: int) -> Mapping[str, Leaf]:
         """See `Subject`."""

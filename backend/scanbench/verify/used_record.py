@@ -2,6 +2,7 @@
 
 from itertools import zip_longest
 
+from scanbench.symbols.names import Names
 from scanbench.verify.both import Both
 from scanbench.verify.contract import Use
 from scanbench.verify.monitor import Inputs
@@ -10,8 +11,9 @@ from scanbench.verify.sides import Side
 from scanbench.verify.uses import Access, Pass, Recorder
 
 
-def uses_of(both: Both, call: int) -> tuple[Use, ...]:
-    """Of a call in the scan that ran last. `BadEdit` when there is none."""
+def detailed(both: Both, call: int) -> tuple[Names, Pass, Pass, Pass]:
+    """A call in the scan that ran last: names there; the pass with the results that ran live; the same with the open calls of each use;
+    that of the monitor, which has both. `BadEdit` when there is no such call."""
     ran, number = pass_of(both, call)
     view, control, monitor = ran.view, both.control.side, both.monitor.side
     inputs = Inputs(ran.passes, ran.there)
@@ -29,16 +31,21 @@ def uses_of(both: Both, call: int) -> tuple[Use, ...]:
         both.monitor.run(other, inputs)
         return other.passes
 
-    mine = ran.passes[number].log  # with the results that ran live; run again for the open calls only
     first = control.again(ran.control, run_control)[number]
     passes = monitor.again(ran.monitor, run_monitor)
-    second = passes[number] if number < len(passes) else Pass(None, 0, 0)
-    names = view.reader.names.within(first.inside)
+    return view.reader.names, ran.passes[number], first, passes[number] if number < len(passes) else Pass(None, 0, 0)
+
+
+def uses_of(both: Both, call: int) -> tuple[Use, ...]:
+    """Of a call in the scan that ran last. `BadEdit` when there is none."""
+    all_names, live, first, second = detailed(both, call)
+    places = pass_of(both, call)[0].view.reader.places
+    names = all_names.within(first.inside)
     found = []
-    for index, (one, right) in enumerate(zip_longest(mine, second.log)):
+    for index, (one, right) in enumerate(zip_longest(live.log, second.log)):
         access: Access = one or right
         frames = first.frames_of[index] if one is not None else second.frames_of[index]
-        place = view.reader.places.of(access.site, frames)
+        place = places.of(access.site, frames)
         for leaf in names.at(access.offset, access.size, access.bits):
             there = None if one is None else leaf.cut(one.value, one.offset)
             same = right is not None and right[:6] == access[:6]

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Protocol, Self
 
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.symbols.leaves import Leaf
 from scanbench.verify.contract import (
     DEFAULT_LIMIT,
@@ -16,6 +17,7 @@ from scanbench.verify.contract import (
     ScanVerified,
     Use,
     VerifyCoverage,
+    VerifyFlows,
 )
 from scanbench.verify.edits import BadEdit, Edit, Edits
 from scanbench.verify.rows import Columns
@@ -56,6 +58,9 @@ class Subject(Protocol):
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """The used-variable record of one pass. `BadEdit` when there is none."""
+
+    def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
+        """What the code of an instance saw in one pass, on both sides. `BadEdit` when there is none, or it is not known; `UnknownPath`."""
 
     def inputs(self, scan: int, call: int) -> Mapping[str, Leaf]:
         """What a pass reads from outside of it, by column. `BadEdit` when there is no such pass."""
@@ -132,6 +137,10 @@ class Verifier:
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """The used-variable record of one pass. `BadEdit` when there is none; `Unreadable`."""
         return self._subject.uses(scan, call)
+
+    def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
+        """What the code of an instance saw in one pass, on both sides. `BadEdit`, `UnknownPath`, `Unreadable`."""
+        return self._subject.flows(scan, call, asked)
 
     def set_inputs(self, edits: Sequence[tuple[int, int, str, str]]) -> tuple[Row, ...]:
         """The monitor runs these passes on edited inputs as well: (scan, call, column, value as typed); an empty value takes

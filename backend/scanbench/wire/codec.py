@@ -77,7 +77,18 @@ from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
-from scanbench.verify.contract import Column, Compared, Input, Mismatch, Output, Place, Range, Row, VerifyCoverage
+from scanbench.verify.contract import (
+    Column,
+    Compared,
+    Input,
+    Mismatch,
+    Output,
+    Place,
+    Range,
+    Row,
+    VerifyCoverage,
+    VerifyFlows,
+)
 from scanbench.verify.trace.growing import Sample
 from scanbench.wire import campaigns as campaign_protocol
 from scanbench.wire import debugging as debug_protocol
@@ -132,6 +143,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.BeginController, verify_protocol.TakeSamples, Sample, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.ScansDone,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
+        VerifyFlows, verify_protocol.RowFlowsOf, verify_protocol.RowFlowsAre,
         verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
         Comparison, WhatIfWanted, SetValue, Try, WhatIf, whatif_protocol.RunWhatIf, whatif_protocol.TryDone, whatif_protocol.WhatIfDone,

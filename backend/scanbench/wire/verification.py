@@ -7,9 +7,10 @@ order; it sends rows as they are made, and the parent keeps them. A different pr
 from dataclasses import dataclass
 from typing import ClassVar
 
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
 from scanbench.public import Public
-from scanbench.verify.contract import Column, Mismatch, Range, VerifyCoverage
+from scanbench.verify.contract import Column, Mismatch, Range, VerifyCoverage, VerifyFlows
 from scanbench.verify.trace.growing import Sample
 from scanbench.wire.host import Sources
 
@@ -115,6 +116,16 @@ class UsesOf:
     call: int
 
 
+@dataclass(frozen=True, slots=True)
+class RowFlowsOf:
+    """What the code of an instance saw in one pass. Answered with `RowFlowsAre`."""
+
+    ref: int
+    scan: int
+    call: int
+    asked: FlowAsked
+
+
 # ---- job to parent -------------------------------------------------------------------------------------------------
 
 
@@ -210,6 +221,14 @@ class UsesAre:
 
     ref: int
     uses: tuple[UseRow, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RowFlowsAre:
+    """On both sides."""
+
+    ref: int
+    flows: VerifyFlows
 
 
 # ---- the past: one process for the questions of all, one for each comparison and replay ----------------------------

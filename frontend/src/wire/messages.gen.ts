@@ -2939,6 +2939,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/verifications/{verification}/flow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Power and values at each element of a POU as the code of the instance `path` saw them in one row, on both sides, and the element that differed first
+         * @description Power and values at each element of a POU as the code of the instance `path` saw them in one row, on both sides, and the element
+         *     that differed first.
+         */
+        get: operations["get_verification_flow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/verifications/{verification}/keep": {
         parameters: {
             query?: never;
@@ -9964,6 +9985,21 @@ export interface components {
             type: string;
         };
         /**
+         * VerifyFlows
+         * @description What the code of one instance saw in one row, element by element, on both sides.
+         */
+        VerifyFlows: {
+            /** Column */
+            column: number;
+            control: components["schemas"]["Flows"];
+            /**
+             * Line
+             * @description Where the element begins that differed first: whose power or values are not the same, or that ran on one side only. 0: none did.
+             */
+            line: number;
+            monitor: components["schemas"]["Flows"];
+        };
+        /**
          * VerifyInput
          * @description What was read before the pass wrote it.
          */
@@ -16213,6 +16249,42 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    get_verification_flow: {
+        parameters: {
+            query: {
+                call?: number;
+                path?: string;
+                pou: string;
+                scan: number;
+            };
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerifyFlows"];
+                };
             };
         };
     };

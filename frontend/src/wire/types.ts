@@ -209,6 +209,7 @@ export type VerifyColumn = Shapes["VerifyColumn"];
 export type VerifyDifference = Shapes["VerifyDifference"];
 export type VerifyOutput = Shapes["VerifyOutput"];
 export type VerifyPlace = Shapes["VerifyPlace"];
+export type VerifyFlows = Shapes["VerifyFlows"];
 export type VerifyRow = Shapes["VerifyRow"];
 export type VerifyRows = Shapes["VerifyRows"];
 export type VerifyUse = Shapes["VerifyUse"];

@@ -6,6 +6,7 @@ import type {
   SetCell,
   VerificationInfo,
   VerificationRecord,
+  VerifyFlows,
   VerifyRows,
   VerifyUse,
 } from "./types";
@@ -35,6 +36,11 @@ export const verify = {
     json<VerificationInfo>("POST", `/verifications/${verification}/cells`, { cells }),
   uses: (verification: number, scan: number, call: number) =>
     json<VerifyUse[]>("GET", `/verifications/${verification}/uses?scan=${scan}&call=${call}`),
+  flow: (verification: number, scan: number, call: number, pou: string, path: string) =>
+    json<VerifyFlows>(
+      "GET",
+      `/verifications/${verification}/flow?${new URLSearchParams({ scan: String(scan), call: String(call), pou, path })}`,
+    ),
   export: async (of: VerifySource, format: ExportFormat): Promise<Blob> => blob(`${base(of)}/export?format=${format}`),
   keep: (verification: number, name: string) =>
     json<VerificationRecord>("POST", `/verifications/${verification}/keep`, { name }),

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator, Mapping
 
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.program.program import Program
 from scanbench.recording.reader import Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
-from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, Begun, Range, Row, Use, VerifyCoverage
+from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, Begun, Range, Row, Use, VerifyCoverage, VerifyFlows
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
@@ -154,6 +155,10 @@ class TraceSubject:
             return ()
         _, recorder, ran = self._run(scan, detail=True)
         return self._rows.uses(self._pass(recorder, scan, call), ran, recorder.passes)
+
+    def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
+        """A trace says nothing of what the elements of the controller saw."""
+        raise BadEdit(f"a trace has no power of elements: of scan {scan} its outputs are compared")
 
     def inputs(self, scan: int, call: int) -> Mapping[str, Leaf]:
         """See `Subject`."""

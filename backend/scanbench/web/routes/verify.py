@@ -8,11 +8,13 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
 from scanbench.comm.controller.contract import Connection
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.server.kept import readable
 from scanbench.server.uploads import LAST, Checked
 from scanbench.server.verifications import Exported
 from scanbench.server.verify_rows import RowsPage
+from scanbench.verify.contract import VerifyFlows
 from scanbench.verify.trace.read import MAX_BYTES
 from scanbench.web import messages_verify as wire
 from scanbench.web import translate_verify
@@ -102,6 +104,16 @@ async def on_cells(bench: Bench, request: Request, verification: Id, cells: wire
 async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> tuple[UseRow, ...]:
     """The used-variable record of one row, in the order of use."""
     return await bench.verifications.one(verification).uses(scan, call)
+
+
+@router.get("/verifications/{verification}/flow")
+async def on_flow(
+    bench: Bench, verification: Id, scan: Scan, pou: Annotated[str, Query(max_length=500)],
+    path: Annotated[str, Query(max_length=2000)] = "", call: Scan = 1,
+) -> VerifyFlows:  # fmt: skip
+    """Power and values at each element of a POU as the code of the instance `path` saw them in one row, on both sides, and the element
+    that differed first."""
+    return await bench.verifications.one(verification).flows(scan, call, FlowAsked(pou, path))
 
 
 @router.get("/verifications/{verification}/export", response_class=Response)

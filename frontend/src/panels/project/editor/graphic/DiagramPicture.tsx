@@ -11,7 +11,7 @@ import {
 import { type PinSpot, pinsOf } from "../../../../logic/graphic/diagramPins";
 import { t } from "../../../../text";
 import { nameOfItem, nameOfPin } from "./names";
-import { isChosen, type Marked, SpotGroup, sharp, wrongAt } from "./SpotGroup";
+import { apartAt, isChosen, type Marked, SpotGroup, sharp, wrongAt } from "./SpotGroup";
 
 interface Props extends Marked {
   drawing: DiagramDrawing;
@@ -28,6 +28,7 @@ export const DiagramPicture = memo(function DiagramPicture({ drawing, ...marked 
           key={index}
           className="wire"
           data-wire={wire}
+          data-apart={apartAt(marked.apart, wire)}
           d={`M${points.map(([x, y]) => `${sharp(x)} ${sharp(y)}`).join("L")}`}
         />
       ))}

@@ -45,7 +45,6 @@ import type { Problem } from "../../../../wire/types";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
-import { differencesIn } from "./differences";
 import { ElementField } from "./ElementField";
 import { Foot } from "./Foot";
 import { marksOf, togglePart } from "./marks";
@@ -371,8 +370,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                     ) : null
                   }
                   twice={twice[item.index] ?? NONE}
-                  differences={differencesIn(rung, path, verified)}
-                  scan={verified?.scan ?? 0}
+                  verified={verified}
                   wrong={wrongIn(rung, path, problems)}
                   chosen={chosen?.parts.includes(item.index) ? chosen.places : null}
                   drop={drag.dragged && (drag.dragged.over?.rung === item.index ? drag.dragged.over.drop : "elsewhere")}

@@ -1,4 +1,5 @@
 import { type ReactNode, useEffect, useRef, useState } from "react";
+import type { AllApart } from "../../../../logic/graphic/apart";
 import { type Drop, dropsOf } from "../../../../logic/graphic/drops";
 import type { PartFlow } from "../../../../logic/graphic/flow";
 import type { Heading } from "../../../../logic/graphic/heading";
@@ -10,10 +11,10 @@ import { useMembers } from "../../../../store/plc/members";
 import { useForces } from "../../../../store/watch/forces";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
-import type { Pou } from "../../../../wire/types";
+import type { Pou, VerifyRow } from "../../../../wire/types";
+import { ApartMark } from "./ApartMark";
 import { ChartPicture } from "./ChartPicture";
 import { DiagramPicture } from "./DiagramPicture";
-import type { ElementDifference } from "./differences";
 import { clear } from "./follow";
 import { followFlow } from "./followFlow";
 import { showRung } from "./live";
@@ -21,6 +22,7 @@ import { showChart } from "./liveChart";
 import { showDiagram } from "./liveDiagram";
 import type { PartMarks } from "./marks";
 import { RungDrawing } from "./RungDrawing";
+import { useApart } from "./useApart";
 import { type Wrong, wrongText } from "./wrong";
 
 interface Props {
@@ -43,9 +45,8 @@ interface Props {
   field: ReactNode;
   marks: PartMarks;
   twice: readonly Twice[];
-  /** Of the verification row that is selected, and its scan. */
-  differences: readonly ElementDifference[];
-  scan: number;
+  /** The verification row that is selected. */
+  verified: VerifyRow | null;
   /** Its elements that are chosen together; empty: all of it is. Null where nothing is. */
   chosen: readonly Place[] | null;
   /** Where what is dragged would come; null where nothing is dragged. */
@@ -69,8 +70,7 @@ export function PartRow({
   field,
   marks,
   twice,
-  differences,
-  scan,
+  verified,
   wrong,
   chosen,
   drop,
@@ -78,6 +78,8 @@ export function PartRow({
   const { found, readable } = part;
   const { label, title, off } = found.head;
   const [said, setSaid] = useState("");
+  const apart = useApart(part, path, pou, verified);
+  const differing = apart.marks.filter(({ power }) => !power);
   const headline = part.kind === "chart" ? (pou?.name ?? "") : title;
   const lines = part.kind === "chart" ? [headline] : head.title;
   return (
@@ -103,10 +105,10 @@ export function PartRow({
           {off && <span className="st faint">{t("graphic.off")}</span>}
           {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
           {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
-          {differences.length > 0 && (
+          {differing.length > 0 && (
             <span className="st bad">
               <Icon name="differs" small />
-              {t("graphic.differences", { count: differences.length, scan })}
+              {t("graphic.differences", { count: differing.length, scan: verified?.scan ?? 0 })}
             </span>
           )}
           {said !== "" && <span className="st faint">{said}</span>}
@@ -137,7 +139,7 @@ export function PartRow({
           field={field}
           marks={marks}
           onSaid={setSaid}
-          differences={differences}
+          apart={apart}
           wrong={wrongText(wrong)}
           chosen={chosen?.map((place) => place.join(".")).join(" ") ?? ""}
           drop={drop}
@@ -158,11 +160,12 @@ function Picture({
   field,
   marks,
   onSaid,
-  differences,
+  apart,
   wrong,
   chosen,
   drop,
-}: Pick<Props, "path" | "part" | "scale" | "pou" | "id" | "cursor" | "field" | "marks" | "differences"> & {
+}: Pick<Props, "path" | "part" | "scale" | "pou" | "id" | "cursor" | "field" | "marks"> & {
+  apart: AllApart;
   onSaid: (said: string) => void;
   wrong: string;
   chosen: string;
@@ -200,7 +203,15 @@ function Picture({
     };
   }, [rung, diagram, chart, pou, live, instance, members, forces]);
 
-  const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points, wrong, chosen };
+  const marked = {
+    id,
+    cursor: cursor?.join(".") ?? null,
+    next: marks.next,
+    points: marks.points,
+    wrong,
+    chosen,
+    apart: apart.wires,
+  };
   return (
     <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>
       <div style={{ zoom: scale }}>
@@ -222,16 +233,8 @@ function Picture({
         </svg>
       )}
       {field}
-      {differences.map(({ x, y, control, monitor, message }) => (
-        <span
-          key={`${x} ${y} ${message}`}
-          className="elemdiff"
-          style={{ left: x * scale, top: y * scale }}
-          title={message}
-        >
-          <Icon name="differs" small />
-          {t("graphic.difference", { control, monitor })}
-        </span>
+      {apart.marks.map((mark) => (
+        <ApartMark key={`${mark.key} ${mark.x} ${mark.y}`} mark={mark} scale={scale} />
       ))}
     </div>
   );

@@ -3,7 +3,7 @@ import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayo
 import { widthOf } from "../../../../logic/graphic/measure";
 import { t } from "../../../../text";
 import { nameOf } from "./names";
-import { type Marked, SpotGroup, sharp } from "./SpotGroup";
+import { apartAt, type Marked, SpotGroup, sharp } from "./SpotGroup";
 
 interface Props extends Marked {
   drawing: Drawing;
@@ -20,6 +20,7 @@ export const RungDrawing = memo(function RungDrawing({ drawing, ...marked }: Pro
           key={index}
           className="wire"
           data-node={node}
+          data-apart={apartAt(marked.apart, node)}
           d={`M${points.map(([x, y]) => `${sharp(x)} ${sharp(y)}`).join("L")}`}
         />
       ))}

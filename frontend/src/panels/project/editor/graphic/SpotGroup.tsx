@@ -17,6 +17,8 @@ export interface Marked {
   chosen: string;
   /** Elements that are wrong, one a line, each with what the compiler says: see `wrongText`. */
   wrong: string;
+  /** Wires that are not the same on both sides of a verification: see `AllApart`. */
+  apart: string;
 }
 
 interface Props extends Marked {
@@ -66,6 +68,17 @@ export function wrongAt(wrong: string, key: string): string {
 /** Whether an element is chosen, or the branches that it is in. */
 export const isChosen = (chosen: string, key: string) =>
   chosen.split(" ").some((each) => key === each || key.startsWith(`${each}.`));
+
+/** Which side of a verification has power on a wire: `A`, `B`; `X` where values differ. Undefined where both are the same. */
+export const apartAt = (apart: string, wire: string | number) => {
+  const key = String(wire).toUpperCase();
+  return apart === ""
+    ? undefined
+    : apart
+        .split(" ")
+        .find((each) => each.slice(0, -1) === key)
+        ?.slice(-1);
+};
 
 const pointsIn = (points: string) =>
   new Map(

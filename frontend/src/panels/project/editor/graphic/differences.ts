@@ -1,5 +1,6 @@
 /** The differences of the verification row that is selected, at the elements of a drawing where they were made. */
 
+import type { Apart } from "../../../../logic/graphic/apart";
 import type { ChartElement } from "../../../../logic/graphic/chartLayout";
 import type { Drawn } from "../../../../logic/graphic/ladderLayout";
 import { inText } from "../../../../logic/graphic/places";
@@ -8,18 +9,8 @@ import { shownValue } from "../../../../logic/verify/verifyValues";
 import type { VerifyDifference, VerifyRow } from "../../../../wire/types";
 import { shownLine } from "../halt";
 
-export interface ElementDifference {
-  /** Where its mark is drawn: the right end of the element, below it. */
-  x: number;
-  y: number;
-  /** Of the control device, and of the monitor. */
-  control: string;
-  monitor: string;
-  message: string;
-}
-
 /** Those in one part. A difference whose line has no element that writes its variable is at none: the table tells of it. */
-export function differencesIn(part: DrawnPart, path: string, row: VerifyRow | null): readonly ElementDifference[] {
+export function differencesIn(part: DrawnPart, path: string, row: VerifyRow | null): readonly Apart[] {
   const here = (row?.differences ?? []).filter(({ place }) => place?.file === path);
   if (here.length === 0) return NONE;
   const writers = writersIn(part);
@@ -29,17 +20,17 @@ export function differencesIn(part: DrawnPart, path: string, row: VerifyRow | nu
       ({ spot, names }) => inText(part, spot.element.span.at).line === line && isOneOf(names, difference.name),
     );
     if (!writer) return [];
-    const { x, y, width } = writer.spot;
-    return [{ x: x + width, y: y + 13, ...said(difference) }];
+    const { x, y, width, place } = writer.spot;
+    const values = { key: place.join("."), name: "", ...said(difference) };
+    return [{ ...values, x: x + width, y, at: "end" as const, power: false, more: [], first: false }];
   });
 }
 
-const NONE: readonly ElementDifference[] = [];
+const NONE: readonly Apart[] = [];
 
 const said = (difference: VerifyDifference) => ({
   control: shownValue({ ...difference, values: [] }, difference.control).text,
   monitor: shownValue({ ...difference, values: [] }, difference.monitor).text,
-  message: difference.message,
 });
 
 function isOneOf(names: readonly string[], name: string): boolean {
