@@ -75,7 +75,7 @@ class ControllerVerification(Verification):
         self._wanted = [at for at, each in enumerate(found.columns) if each in wanted]
         first = await self._sampler.once(self._wanted)
         self._began_ns, range, limit = first.at_ns, self.status.wanted.range, self.status.wanted.limit
-        begun = await self._ask(
+        begun = await self.ask(
             lambda ref: BeginController(
                 ref, sources, trace.name, columns, self._cells(first), trace.mapping, range, limit
             ),

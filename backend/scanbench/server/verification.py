@@ -11,27 +11,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from scanbench.debug.flow_shown import FlowAsked
 from scanbench.jobs.client import DIED, FAULT, Gone, Job
 from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
-from scanbench.verify.contract import AT_END, Memory, VerifyFlows
+from scanbench.verify.contract import AT_END, Memory
 from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
-    RowFlowsAre,
-    RowFlowsOf,
     ScansDone,
     ScansVerified,
     SetInputs,
-    UseRow,
-    UsesAre,
-    UsesOf,
     VerifyBegun,
     VerifyScans,
     VerifyStep,
@@ -120,7 +114,7 @@ class Verification:
             if wanted.first is not None and wanted.last is not None and wanted.last < wanted.first:
                 raise Refused(f"scans {wanted.first:,} to {wanted.last:,} are none")
             path = str(session.instance.run_file)
-            answer = await self._ask(
+            answer = await self.ask(
                 lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first), VerifyBegun
             )
         self._change(begun(self.status, answer, self._live_scan))  # it took a while until now
@@ -135,7 +129,7 @@ class Verification:
 
     async def _begun_trace(self, trace: TraceSource, sources: Sources) -> VerifyBegun:
         file, wanted = str(trace.file), self.status.wanted
-        return await self._ask(
+        return await self.ask(
             lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit),
             VerifyBegun,
         )
@@ -203,16 +197,8 @@ class Verification:
 
     async def set_cells(self, edits: tuple[tuple[int, int, str, str], ...]) -> None:
         """The monitor runs these passes again on edited inputs."""
-        self.rows.replace(await self._ask(lambda ref: SetInputs(ref, edits), ScansVerified))
+        self.rows.replace(await self.ask(lambda ref: SetInputs(ref, edits), ScansVerified))
         self._change(generation=self.status.generation + 1)
-
-    async def uses(self, scan: int, call: int) -> tuple[UseRow, ...]:
-        """The used-variable record of one row."""
-        return (await self._ask(lambda ref: UsesOf(ref, scan, call), UsesAre)).uses
-
-    async def flows(self, scan: int, call: int, asked: FlowAsked) -> VerifyFlows:
-        """What the code of an instance saw in one row, on both sides."""
-        return (await self._ask(lambda ref: RowFlowsOf(ref, scan, call, asked), RowFlowsAre)).flows
 
     # ---- going on -------------------------------------------------------------------------------------------------
 
@@ -360,7 +346,8 @@ class Verification:
 
     # ---- the process ----------------------------------------------------------------------------------------------
 
-    async def _ask(self, make: Callable[[int], object], answer: type[A]) -> A:
+    async def ask(self, make: Callable[[int], object], answer: type[A]) -> A:
+        """What the process answers; `Refused`."""
         if self._gone:
             raise Refused("its process has ended: begin a new verification")
         return await self._job.ask(make, answer)

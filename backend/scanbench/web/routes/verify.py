@@ -13,6 +13,7 @@ from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.server.kept import readable
 from scanbench.server.uploads import LAST, Checked
 from scanbench.server.verifications import Exported
+from scanbench.server.verify_questions import flows_of, uses_of
 from scanbench.server.verify_rows import RowsPage
 from scanbench.verify.contract import VerifyFlows
 from scanbench.verify.trace.read import MAX_BYTES
@@ -103,7 +104,7 @@ async def on_cells(bench: Bench, request: Request, verification: Id, cells: wire
 @router.get("/verifications/{verification}/uses")
 async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> tuple[UseRow, ...]:
     """The used-variable record of one row, in the order of use."""
-    return await bench.verifications.one(verification).uses(scan, call)
+    return await uses_of(bench.verifications.one(verification), scan, call)
 
 
 @router.get("/verifications/{verification}/flow")
@@ -113,7 +114,7 @@ async def on_flow(
 ) -> VerifyFlows:  # fmt: skip
     """Power and values at each element of a POU as the code of the instance `path` saw them in one row, on both sides, and the element
     that differed first."""
-    return await bench.verifications.one(verification).flows(scan, call, FlowAsked(pou, path))
+    return await flows_of(bench.verifications.one(verification), scan, call, FlowAsked(pou, path))
 
 
 @router.get("/verifications/{verification}/export", response_class=Response)
