@@ -7,9 +7,9 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from scanbench.history.scenario import ENDING, BadScenario, project_of, read_scenario
+from scanbench.testing.chosen import named_project, read_project
 from scanbench.testing.play import nothing_expected, play
 from scanbench.testing.plc import Plc, PlcFailure
-from scanbench.testing.plugin import named_project, read_project
 
 __all__ = ["ENDING", "ScenarioFile"]
 

@@ -12,11 +12,12 @@ import os
 import re
 import shutil
 from collections.abc import Generator, Iterator
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+
+from scanbench.testing.chosen import named_project, read_project
 
 if TYPE_CHECKING:  # what is not asked for must not make the start of other tests slow
     from scanbench.testing.plc import Plc
@@ -50,17 +51,6 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     return ScenarioFile.from_parent(parent, path=file_path) if file_path.name.endswith(ENDING) else None
 
 
-@cache
-def read_project(path: Path, engine: str) -> "Project":
-    from scanbench.testing.project import BrokenProject, Project
-
-    try:
-        return Project.read(path, engine)
-    except BrokenProject as error:
-        told = str(error)
-    pytest.fail(f"{path} cannot be tested:\n{told}", pytrace=False)
-
-
 @pytest.fixture
 def project(request: pytest.FixtureRequest) -> "Project":
     """The program: that of the mark `scanbench(project=...)`, else of the option, else of pytest.ini, else the folder of the test."""
@@ -70,15 +60,6 @@ def project(request: pytest.FixtureRequest) -> "Project":
     else:
         path = named_project(config) or request.path.parent
     return read_project(path.resolve(), config.getoption("--scanbench-engine"))
-
-
-def named_project(config: pytest.Config) -> Path | None:
-    """The folder or file of the program that the option names, else pytest.ini; None where neither does."""
-    if config.getoption("--scanbench-project"):
-        return config.invocation_params.dir / str(config.getoption("--scanbench-project"))
-    if config.getini("scanbench_project"):
-        return config.rootpath / str(config.getini("scanbench_project"))
-    return None
 
 
 @pytest.fixture
