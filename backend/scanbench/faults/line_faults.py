@@ -1,4 +1,4 @@
-"""Faults of communication: what is wrong with the line between a server of the communication unit and its clients.
+"""Faults of communication: what is wrong with the line between a server of the communication unit and its clients, or to the plant.
 
 The PLC and its memory know nothing of it but what comes of it: a SEND that gets no answer ends with an error of its port. The
 journal says which lines are broken; the server (`server/communication.py`) does to clients what it says. A line stays broken when
@@ -7,7 +7,7 @@ the PLC restarts: somebody has to mend it.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 from scanbench.plcmodel.model import Model
 from scanbench.public import Public
@@ -15,16 +15,21 @@ from scanbench.runtime.command import Category, Command, Entry, Plan, Refusal, V
 from scanbench.runtime.journal import Fold
 
 ServerKind = Literal["fins", "slmp", "modbus", "opcua"]
+LineKind = Literal["fins", "slmp", "modbus", "opcua", "plant"]
+"""Lines: that of each server to its clients, and that to a plant that is a server of Modbus TCP."""
 FaultKind = Literal["none", "silent", "late", "cut", "refused", "node"]
-SERVER_NAMES: Mapping[ServerKind, str] = {"fins": "FINS", "slmp": "SLMP", "modbus": "Modbus TCP", "opcua": "OPC UA"}
+LINE_NAMES: Mapping[LineKind, str] = {
+    "fins": "FINS", "slmp": "SLMP", "modbus": "Modbus TCP", "opcua": "OPC UA", "plant": "Modbus plant",
+}  # fmt: skip
 LATEST_MS = 60_000
+_SERVERS: tuple[ServerKind, ...] = get_args(ServerKind)
 _VENDORS: Mapping[ServerKind, str] = {"fins": "omron", "slmp": "mitsubishi"}
 """Whose models alone speak a protocol."""
 
 
 @dataclass(frozen=True, slots=True)
 class LineFault(Public):
-    """What is wrong with the line between a server and its clients."""
+    """What is wrong with a line."""
 
     PUBLIC: ClassVar = "CommunicationFault"
     GIVEN: ClassVar = True
@@ -48,7 +53,7 @@ class BrokenLine(Public):
 
     PUBLIC: ClassVar = "BrokenLine"
 
-    server: ServerKind
+    server: LineKind
     fault: LineFault
     by: str
     scan: int
@@ -56,7 +61,12 @@ class BrokenLine(Public):
 
 def servers_of(model: Model) -> tuple[ServerKind, ...]:
     """The protocols that a model speaks."""
-    return tuple(kind for kind in SERVER_NAMES if _VENDORS.get(kind, model.vendor) == model.vendor)
+    return tuple(kind for kind in _SERVERS if _VENDORS.get(kind, model.vendor) == model.vendor)
+
+
+def lines_of(model: Model) -> tuple[LineKind, ...]:
+    """The lines that a PLC of this model can have."""
+    return (*servers_of(model), "plant")
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,18 +75,20 @@ class BreakLine(Command):
 
     category: ClassVar[Category] = "error"
 
-    server: ServerKind
+    server: LineKind
     fault: LineFault
 
     def plan(self, view: View) -> Plan | Refusal:
         """Nothing in memory."""
-        name = SERVER_NAMES[self.server]
-        if self.server not in servers_of(view.model):
-            return Refusal(f"{view.model.name} does not speak {name}", servers_of(view.model))
+        name = LINE_NAMES[self.server]
+        if self.server not in lines_of(view.model):
+            return Refusal(f"{view.model.name} does not speak {name}", lines_of(view.model))
         if not 0 <= self.fault.late_ms <= LATEST_MS:
             return Refusal(f"an answer can come up to {LATEST_MS} ms late, not {self.fault.late_ms}")
         if self.fault.kind == "node" and self.server == "opcua":
             return Refusal("OPC UA has no node numbers of PLCs: choose a different fault")
+        if self.fault.kind == "node" and self.server == "plant":
+            return Refusal("a plant has no node number of the PLC: choose a different fault")
         if self.fault.kind == "none":
             return Refusal("no fault is given: MendLine takes one back")
         late = f"answers come {self.fault.late_ms} ms late"
@@ -89,11 +101,11 @@ class MendLine(Command):
 
     category: ClassVar[Category] = "recover"
 
-    server: ServerKind
+    server: LineKind
 
     def plan(self, view: View) -> Plan | Refusal:
         """Nothing in memory."""
-        name = SERVER_NAMES[self.server]
+        name = LINE_NAMES[self.server]
         whole = self.server not in view.derived(BROKEN_LINES)
         return Plan((), f"line of {name}: nothing was wrong" if whole else f"line of {name}: nothing is wrong any more")
 

@@ -18,7 +18,17 @@ from scanbench.comm.modbus.wires import PlantWanted
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
 from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
-from scanbench.faults.line_faults import NO_FAULT, SERVER_NAMES, BreakLine, LineFault, MendLine, ServerKind, servers_of
+from scanbench.faults.line_faults import (
+    LINE_NAMES,
+    NO_FAULT,
+    BreakLine,
+    LineFault,
+    LineKind,
+    MendLine,
+    ServerKind,
+    lines_of,
+    servers_of,
+)
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_map import MapFile, ModbusMap
 from scanbench.server.communication_network import Member, PlcNetwork
@@ -164,7 +174,7 @@ class Communication:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
         unit = self._units[session.id]
         if kind not in unit.servers:
-            raise Refused(f"{session.model.name} does not speak {SERVER_NAMES[kind]}", tuple(unit.servers))
+            raise Refused(f"{session.model.name} does not speak {LINE_NAMES[kind]}", tuple(unit.servers))
         _refuse_wrong(wanted)
         async with unit.turning:
             before = unit.servers[kind]
@@ -194,18 +204,17 @@ class Communication:
         kept["plant"] = asdict(unit.plant.wanted)
         await asyncio.to_thread(self._store.instances.keep_communication, unit.session.id, kept)
 
-    async def break_line(self, session: Session, kind: ServerKind, fault: LineFault, author: str) -> CommunicationSeen:
-        """Lets something be wrong with the line to the clients of a server, or nothing any more. `Refused`."""
+    async def break_line(self, session: Session, kind: LineKind, fault: LineFault, author: str) -> CommunicationSeen:
+        """Lets something be wrong with a line, or nothing any more. `Refused`."""
         unit = self._units[session.id]
-        running = unit.servers.get(kind)
-        if running is None:
-            raise Refused(f"{session.model.name} does not speak {SERVER_NAMES[kind]}", tuple(unit.servers))
+        if kind not in lines_of(session.model):
+            raise Refused(f"{session.model.name} does not speak {LINE_NAMES[kind]}", lines_of(session.model))
         command = MendLine(author, kind) if fault.kind == "none" else BreakLine(author, kind, fault)
         ack = await session.submit(command)
         if not ack.ok:
             raise Refused(ack.message)
         async with unit.turning:
-            await self._apply(unit, kind, running, fault if fault.kind != "none" else NO_FAULT)
+            await self._apply(unit, kind, fault if fault.kind != "none" else NO_FAULT)
         return self.seen(session)
 
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
@@ -243,13 +252,18 @@ class Communication:
     async def _bring_up_to_date(self, unit: _Unit) -> None:
         async with unit.turning:
             faults = {each.server: each.fault for each in unit.session.errors.lines}
-            for kind, running in unit.servers.items():
+            for kind in lines_of(unit.session.model):
                 if self._units.get(unit.session.id) is unit:
-                    await self._apply(unit, kind, running, faults.get(kind, NO_FAULT))
+                    await self._apply(unit, kind, faults.get(kind, NO_FAULT))
 
-    async def _apply(self, unit: _Unit, kind: ServerKind, running: _Running, fault: LineFault) -> None:
-        if fault == running.fault:
-            return
+    async def _apply(self, unit: _Unit, kind: LineKind, fault: LineFault) -> None:
+        if kind == "plant":
+            unit.plant.break_line(fault)
+        elif kind in unit.servers and unit.servers[kind].fault != fault:
+            await self._apply_to(unit, kind, fault)
+
+    async def _apply_to(self, unit: _Unit, kind: ServerKind, fault: LineFault) -> None:
+        running = unit.servers[kind]
         closed, running.fault = running.fault.kind == "refused", fault
         if fault.kind == "refused":
             desk = running.desk
@@ -297,7 +311,7 @@ def _told(kind: ServerKind, running: _Running) -> str:
     """What the log says of a server that was set."""
     if running.trouble:
         return running.trouble
-    name = SERVER_NAMES[kind]
+    name = LINE_NAMES[kind]
     return f"{name} server on: {_address(kind, running)}" if running.server else f"{name} server off"
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from scanbench.comm.desk import Desk
 from scanbench.comm.modbus.plant import PlantClient
 from scanbench.comm.modbus.wires import PlantWanted, answers_bit, wires
+from scanbench.faults.line_faults import NO_FAULT, LineFault
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_shapes import PlantSeen
 from scanbench.session.session import Session
@@ -24,6 +25,8 @@ class Plant:
         self.wanted = _read(kept)
         self.desk: Desk | None = None
         """None while it is off."""
+        self.fault = NO_FAULT
+        """What is wrong with the line to it."""
         self._client: PlantClient | None = None
         self._task: asyncio.Task[None] | None = None
         self._trouble = ""
@@ -33,9 +36,16 @@ class Plant:
         """As it is now."""
         client, desk = self._client, self.desk
         if client is None or desk is None:
-            return PlantSeen(self.wanted, False, self._trouble, 0, 0.0, 0.0, ())
+            return PlantSeen(self.wanted, self.fault, False, self._trouble, 0, 0.0, 0.0, ())
         return PlantSeen(
-            self.wanted, client.answers, client.trouble, client.exchanges, client.took_ms, desk.per_second, desk.frames
+            self.wanted,
+            self.fault,
+            client.answers,
+            client.trouble,
+            client.exchanges,
+            client.took_ms,
+            desk.per_second,
+            desk.frames,
         )
 
     def check(self, wanted: PlantWanted) -> None:
@@ -54,7 +64,7 @@ class Plant:
         wanted, name = self.wanted, f"Modbus plant {self.wanted.host}:{self.wanted.port}"
         if not wanted.on:
             return
-        desk = Desk(lambda _: door, self._on_clients, False)
+        desk = Desk(lambda _: door, self._on_clients, False, self.fault)
         door = SessionDoor(self._session, name, self._readers)
         try:
             client = PlantClient(door, wanted, desk, lambda text: self._session.log.add(name, text, "system"))
@@ -64,6 +74,12 @@ class Plant:
         self._client, self.desk = client, desk
         desk.arrive(name)
         self._task = asyncio.get_running_loop().create_task(_run(client, name))
+
+    def break_line(self, fault: LineFault) -> None:
+        """Something is wrong with the line to the plant, or nothing any more: from the next exchange on."""
+        self.fault = fault
+        if self.desk is not None:
+            self.desk.fault = fault
 
     async def end(self) -> None:
         """Nothing is exchanged any more."""

@@ -60,6 +60,8 @@ class PlantSeen(Public):
     PUBLIC: ClassVar = "CommunicationPlant"
 
     settings: PlantWanted
+    fault: LineFault
+    """What is wrong with the line to it, because somebody wanted it so."""
     answers: bool
     trouble: str
     """Why it does not answer although it is on, or why its values are not entered."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import get_args
 
 from scanbench.faults.inject import Recover
-from scanbench.faults.line_faults import SERVER_NAMES, BreakLine, FaultKind, LineFault, MendLine, ServerKind, servers_of
+from scanbench.faults.line_faults import LINE_NAMES, BreakLine, FaultKind, LineFault, LineKind, MendLine, lines_of
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, RestartKind
 from scanbench.runtime.forces import Force, Release
@@ -103,13 +103,13 @@ def _mend(program: Program, text: str) -> Command:
 
 def _possible(program: Program, command: BreakLine | MendLine) -> Command:
     """`BadCommand` where the model does not speak that."""
-    if command.server not in servers_of(program.layout.model):
-        raise BadCommand(f"{program.layout.model.name} does not speak {SERVER_NAMES[command.server]}")
+    if command.server not in lines_of(program.layout.model):
+        raise BadCommand(f"{program.layout.model.name} does not speak {LINE_NAMES[command.server]}")
     return command
 
 
-def _server(text: str) -> ServerKind:
-    kinds: dict[str, ServerKind] = {kind: kind for kind in get_args(ServerKind)}
+def _server(text: str) -> LineKind:
+    kinds: dict[str, LineKind] = {kind: kind for kind in get_args(LineKind)}
     if text.strip().lower() not in kinds:
         raise BadCommand(f"there is no line {text.strip()!r}: they are {', '.join(kinds)}")
     return kinds[text.strip().lower()]

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, RootModel
 
-from scanbench.faults.line_faults import LineFault, ServerKind
+from scanbench.faults.line_faults import LineFault, LineKind
 from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Id, Wire
 from scanbench.web.messages_errors import ArmFaults, ClearErrors, DisarmFaults, GenerateErrors, GenerateOne
@@ -129,7 +129,7 @@ class BreakLine(Numbered):
     """Lets something be wrong with the line between a server of the communication unit and its clients."""
 
     type: Literal["break_line"] = "break_line"
-    server: ServerKind
+    server: LineKind
     fault: LineFault
 
 
@@ -137,7 +137,7 @@ class MendLine(Numbered):
     """Nothing is wrong with a line any more."""
 
     type: Literal["mend_line"] = "mend_line"
-    server: ServerKind
+    server: LineKind
 
 
 Command = (

@@ -1,5 +1,6 @@
 """A plant that is a server of Modbus which somebody else wrote: its values are inputs of a virtual PLC, in its run."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from scanbench.wire.codec import ENTRIES
 from tests.cli.calling import scanbench
 from tests.web.foreign_plant import COILS, DISCRETE, HOLDING, INPUT, ForeignPlant
 from tests.web.server import PATIENCE_S, Server
-from tests.web.test_communication import switch_on, until
+from tests.web.test_communication import break_line, switch_on, until
 
 SOURCE = """
 PROGRAM Main
@@ -92,6 +93,51 @@ def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_withou
         assert ["does not answer" in each for each in told_of] == [False, True, False]
         exchange(server, instance, plant.port, on=False)
     replays_without(server, instance, name, tmp_path)
+
+
+def test_faults_of_the_line_to_the_plant_are_raised_and_the_program_sees_them(server: Server) -> None:
+    instance = server.instance("plant line", "CJ1M-CPU13", main=SOURCE)
+    modbus = switch_on(server, instance, "modbus")
+    with ForeignPlant() as plant, ModbusTcpClient("127.0.0.1", port=modbus, timeout=PATIENCE_S) as plc:
+        plant.set(INPUT, 2, 21)
+        exchange(server, instance, plant.port, lost="clear")
+
+        def there(level: int) -> bool:
+            """The program has this input, and what it makes of it."""
+            return list(plc.read_holding_registers(100, count=1).registers) == [level] and list(
+                plc.read_holding_registers(200, count=1).registers
+            ) == [2 * level]
+
+        for fault, why in (
+            ("cut", "was cut"),
+            ("refused", "nobody can connect"),
+            ("silent", "no answer came within 2 s"),
+        ):
+            until(lambda: there(21) and seen(server, instance)["answers"])
+            break_line(server, instance, "plant", fault)
+            until(lambda: there(0))
+            until(partial(says, server, instance, why))
+            assert not plc.read_coils(ANSWERS, count=1).bits[0], "the program can tell"
+            assert seen(server, instance)["fault"]["kind"] == fault
+            break_line(server, instance, "plant", "none")
+        break_line(server, instance, "plant", "late", 150)
+        until(lambda: there(21) and seen(server, instance)["took_ms"] >= 150)
+        exchange(server, instance, plant.port, on=False)
+        exchange(server, instance, plant.port)
+        until(lambda: seen(server, instance)["took_ms"] >= 150)  # it lasts
+        wrong = server.http.put(f"/api/instances/{instance}/communication/plant/fault", json={"kind": "node"})
+        assert "no node number" in wrong.json()["message"]
+    log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
+    told = [each["text"] for each in reversed(log) if each["text"].startswith("line of Modbus plant")]
+    assert "line of Modbus plant: connections end" in told
+
+
+def says(server: Server, instance: int, why: str) -> bool:
+    return why in seen(server, instance)["trouble"]
+
+
+ANSWERS = 3200
+"""The coil of the first bit of work memory, which is on while the plant answers."""
 
 
 def replays_without(server: Server, instance: int, name: str, folder: Path) -> None:

@@ -100,7 +100,8 @@ function busy(server: FakeServer): void {
     answers: "",
     ranges: [],
   };
-  const plant = { settings, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
+  const fault = { kind: "none" as const, late_ms: 1000 };
+  const plant = { settings, fault, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
   server.on("GET", "/instances/*/communication", () => ({
     servers: [],
     error_readers: [],

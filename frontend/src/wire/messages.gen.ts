@@ -374,8 +374,8 @@ export interface paths {
         };
         get?: never;
         /**
-         * Lets something be wrong with the line to the clients of a server, or nothing any more
-         * @description Lets something be wrong with the line to the clients of a server, or nothing any more. It is in the run file, and stays when
+         * Lets something be wrong with the line to the clients of a server or to the plant, or nothing any more
+         * @description Lets something be wrong with the line to the clients of a server or to the plant, or nothing any more. It is in the run file, and stays when
          *     the PLC or its server is switched off and on.
          */
         put: operations["save_instance_communication_fault"];
@@ -3375,7 +3375,7 @@ export interface components {
              * Server
              * @enum {string}
              */
-            server: "fins" | "slmp" | "modbus" | "opcua";
+            server: "fins" | "slmp" | "modbus" | "opcua" | "plant";
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -3482,7 +3482,7 @@ export interface components {
              * Server
              * @enum {string}
              */
-            server: "fins" | "slmp" | "modbus" | "opcua";
+            server: "fins" | "slmp" | "modbus" | "opcua" | "plant";
         };
         /**
          * Build
@@ -4068,7 +4068,7 @@ export interface components {
         };
         /**
          * CommunicationFault
-         * @description What is wrong with the line between a server and its clients.
+         * @description What is wrong with a line.
          */
         CommunicationFault: {
             /**
@@ -4130,6 +4130,8 @@ export interface components {
              * @description Since it was switched on.
              */
             exchanges: number;
+            /** @description What is wrong with the line to it, because somebody wanted it so. */
+            fault: components["schemas"]["CommunicationFault"];
             /**
              * Frames
              * @description The last ones, the oldest first.
@@ -6336,7 +6338,7 @@ export interface components {
              * Server
              * @enum {string}
              */
-            server: "fins" | "slmp" | "modbus" | "opcua";
+            server: "fins" | "slmp" | "modbus" | "opcua" | "plant";
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -11383,7 +11385,7 @@ export interface operations {
             header?: never;
             path: {
                 instance: number;
-                kind: "fins" | "slmp" | "modbus" | "opcua";
+                kind: "fins" | "slmp" | "modbus" | "opcua" | "plant";
             };
             cookie?: never;
         };

@@ -22,6 +22,7 @@ import type {
   ImportedRecord,
   Instance,
   Invitation,
+  LineKind,
   LogLine,
   LogPage,
   MemoryPlace,
@@ -341,7 +342,7 @@ export const rest = {
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}`, wanted),
   setPlant: (instance: number, wanted: PlantSettings) =>
     json<Communication>("PUT", `/instances/${instance}/communication/plant`, wanted),
-  breakLine: (instance: number, kind: ServerKind, fault: CommunicationFault) =>
+  breakLine: (instance: number, kind: LineKind, fault: CommunicationFault) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}/fault`, fault),
   modbusMap: (instance: number) => json<ModbusRange[]>("GET", `/instances/${instance}/communication/modbus/map`),
   rack: (instance: number) => json<Channel[]>("GET", `/instances/${instance}/rack`),

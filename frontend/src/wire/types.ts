@@ -44,6 +44,8 @@ export type ModbusRange = Shapes["ModbusRange"];
 export type PlantRange = Shapes["PlantRange"];
 export type PlantSettings = Shapes["PlantSettings"];
 export type ServerKind = CommunicationServer["kind"];
+/** That of a server to its clients, or that to a plant. */
+export type LineKind = BrokenLine["server"];
 export type DeviceDetail = Shapes["DeviceDetail"];
 export type DeviceError = Shapes["DeviceError"];
 export type DeviceErrors = Shapes["DeviceErrors"];

@@ -22,7 +22,7 @@ class CommunicationServerSettings(TypedDict):
 
 
 class CommunicationFault(TypedDict):
-    """What is wrong with the line between a server and its clients."""
+    """What is wrong with a line."""
 
     kind: NotRequired[Literal["none", "silent", "late", "cut", "refused", "node"]]
     """silent: the PLC does what it was asked, and no answer comes, so that clients run into their time limit. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a different node number than its clients believe, so that their requests reach nobody."""
@@ -118,6 +118,8 @@ class CommunicationPlant(TypedDict):
     """A plant that is a server of Modbus TCP, as it is."""
 
     settings: PlantSettings
+    fault: CommunicationFault
+    """What is wrong with the line to it, because somebody wanted it so."""
     answers: bool
     trouble: str
     """Why it does not answer although it is on, or why its values are not entered."""

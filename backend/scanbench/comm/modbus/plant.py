@@ -78,8 +78,7 @@ class PlantClient:
 
     async def _talk(self) -> None:
         wanted = self._wanted
-        if self._desk.fault.kind == "refused":
-            raise ConnectionRefusedError("nobody can connect")
+        self._refuse()
         async with asyncio.timeout(PATIENCE_S):
             reader, writer = await asyncio.open_connection(wanted.host, wanted.port)
         line = Line(reader, writer, Stream(), deque())
@@ -93,6 +92,7 @@ class PlantClient:
             writer.close()
 
     async def _exchange(self, line: Line) -> None:
+        self._refuse()
         writes: list[AreaWrite] = []
         for each in self._inputs:
             writes += each.writes(await self._read(line, each))
@@ -108,6 +108,11 @@ class PlantClient:
         if not self.answers:
             self.answers = True
             self._tell(f"the plant at {self._wanted.host}:{self._wanted.port} answers")
+
+    def _refuse(self) -> None:
+        """Where the fault of the line is that nobody can connect."""
+        if self._desk.fault.kind == "refused":
+            raise ConnectionRefusedError("nobody can connect")
 
     async def _enter(self, writes: Sequence[AreaWrite]) -> bool:
         """Whether the PLC took it, and is there at all."""
@@ -159,8 +164,9 @@ class PlantClient:
             line.writer.write(frame)
             await line.writer.drain()
             came, answered = await line.answer()
-            if not await self._desk.on_the_way(answered):
-                raise TimeoutError
+            async with asyncio.timeout(PATIENCE_S):
+                if not await self._desk.on_the_way(answered):
+                    await asyncio.Event().wait()
             return read(came)
         except NOT_THERE as error:
             outcome = _why(error)

@@ -5,7 +5,7 @@ from fastapi.responses import Response
 
 from scanbench.comm.modbus.mapping import Mapped, as_csv
 from scanbench.comm.modbus.wires import PlantWanted
-from scanbench.faults.line_faults import LineFault, ServerKind
+from scanbench.faults.line_faults import LineFault, LineKind, ServerKind
 from scanbench.server.communication_shapes import CommunicationSeen, ServerWanted
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
@@ -37,9 +37,9 @@ async def on_set(
 
 @router.put("/{kind}/fault")
 async def on_break_line(
-    bench: Bench, request: Request, instance: Id, kind: ServerKind, fault: LineFault
+    bench: Bench, request: Request, instance: Id, kind: LineKind, fault: LineFault
 ) -> CommunicationSeen:
-    """Lets something be wrong with the line to the clients of a server, or nothing any more. It is in the run file, and stays when
+    """Lets something be wrong with the line to the clients of a server or to the plant, or nothing any more. It is in the run file, and stays when
     the PLC or its server is switched off and on."""
     return await bench.communication.break_line(bench.session(instance), kind, fault, user_of(request).name)
 

@@ -7,6 +7,7 @@ import type {
   Communication,
   CommunicationFault,
   CommunicationServerSettings,
+  LineKind,
   ModbusRange,
   PlantSettings,
   ServerKind,
@@ -20,7 +21,7 @@ interface State {
   /** Why it could not be asked. */
   trouble: string | null;
   /** The last change, where it was refused. */
-  refused: { kind: ServerKind | "plant"; message: string } | null;
+  refused: { kind: LineKind; message: string } | null;
   /** Null until somebody asked for it. */
   map: readonly ModbusRange[] | null;
 }
@@ -64,11 +65,11 @@ export const changePlant = (wanted: Partial<PlantSettings>) =>
     return rest.setPlant(instance, { ...settings, ...wanted });
   });
 
-export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
+export const breakLine = (kind: LineKind, fault: CommunicationFault) =>
   inTurn(kind, (instance) => rest.breakLine(instance, kind, fault));
 
 /** One change after the other. A refusal stays until the next change. */
-function inTurn(kind: ServerKind | "plant", change: (instance: number) => Promise<Communication>): void {
+function inTurn(kind: LineKind, change: (instance: number) => Promise<Communication>): void {
   const { instance } = useBench.getState();
   if (instance === null) return;
   changes = changes.then(async () => {

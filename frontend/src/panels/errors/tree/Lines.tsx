@@ -1,17 +1,18 @@
 import { useState } from "react";
+import { hasNodes } from "../../../logic/plc/lines";
 import { breakLine, useCommunication } from "../../../store/plc/communication";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
-import type { BrokenLine, CommunicationFault, ServerKind } from "../../../wire/types";
+import type { BrokenLine, CommunicationFault, LineKind, ServerKind } from "../../../wire/types";
 import "./lines.css";
 
 const KINDS = ["cut", "silent", "refused", "node"] as const;
 const LATE = [100, 1000, 5000] as const;
 
-/** Faults of the lines between the PLC and clients of its communication unit: a group of its own, as no error memory has them. */
+/** Faults of the lines between the PLC and clients of its communication unit, or to its plant: a group of its own, as no error memory has them. */
 export function Lines({ servers }: { servers: readonly ServerKind[] }) {
   const broken = usePlc((plc) => plc.lines);
   const refused = useCommunication((state) => state.refused);
@@ -28,7 +29,7 @@ export function Lines({ servers }: { servers: readonly ServerKind[] }) {
       </button>
       {open && (
         <ul>
-          {servers.map((kind) => (
+          {[...servers, "plant" as const].map((kind) => (
             <Line key={kind} kind={kind} broken={broken.find((each) => each.server === kind)} />
           ))}
         </ul>
@@ -42,12 +43,12 @@ export function Lines({ servers }: { servers: readonly ServerKind[] }) {
   );
 }
 
-function Line({ kind, broken }: { kind: ServerKind; broken: BrokenLine | undefined }) {
+function Line({ kind, broken }: { kind: LineKind; broken: BrokenLine | undefined }) {
   const forbidden = useForbidden("errors");
-  const name = t(`communication.kind.${kind}`);
+  const name = kind === "plant" ? t("communication.plant") : t(`communication.kind.${kind}`);
   const raise = (fault: CommunicationFault) => () => breakLine(kind, fault);
   const items = () => [
-    ...KINDS.filter((each) => each !== "node" || kind !== "opcua").map((each) => ({
+    ...KINDS.filter((each) => each !== "node" || hasNodes(kind)).map((each) => ({
       label: t(`communication.fault.${each}`),
       checked: broken?.fault.kind === each,
       onSelect: raise({ kind: each, late_ms: 1000 }),

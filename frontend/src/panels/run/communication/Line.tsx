@@ -1,13 +1,14 @@
+import { hasNodes } from "../../../logic/plc/lines";
 import { breakLine } from "../../../store/plc/communication";
 import { t } from "../../../text";
 import { Segments } from "../../../ui/Segments";
-import type { CommunicationFault, CommunicationServer } from "../../../wire/types";
+import type { CommunicationFault, LineKind } from "../../../wire/types";
 
 const KINDS = ["none", "silent", "late", "cut", "refused", "node"] as const;
 const LATE = [100, 1000, 5000] as const;
 
-/** What is wrong with the line to the clients: takes effect at once, and ends with the server. */
-export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault: CommunicationFault }) {
+/** What is wrong with the line to the clients, or to the plant: takes effect at once, until somebody mends it. */
+export function Line({ kind, fault }: { kind: LineKind; fault: CommunicationFault }) {
   const now = fault.kind;
   return (
     <span className="field">
@@ -17,7 +18,7 @@ export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault
           label={t("communication.fault")}
           acts
           value={now}
-          options={KINDS.filter((value) => value !== "node" || kind !== "opcua").map((value) => ({
+          options={KINDS.filter((value) => value !== "node" || hasNodes(kind)).map((value) => ({
             value,
             word: t(`communication.fault.${value}`),
             title: t(`communication.fault.${value}.about`),

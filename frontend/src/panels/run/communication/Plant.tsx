@@ -7,6 +7,7 @@ import { Segments } from "../../../ui/Segments";
 import { StateWord } from "../../../ui/StateWord";
 import { Switch } from "../../../ui/Switch";
 import type { CommunicationPlant, PlantSettings } from "../../../wire/types";
+import { Line } from "./Line";
 import { PlantRanges } from "./PlantRanges";
 import { Frames } from "./Seen";
 
@@ -32,6 +33,7 @@ export function Plant({ plant }: { plant: CommunicationPlant }) {
           <span>{said}</span>
         </p>
       )}
+      {settings.on && <Line kind="plant" fault={plant.fault} />}
       <Settings settings={settings} />
       {settings.on && <Frames frames={plant.frames} of={title} />}
     </section>
