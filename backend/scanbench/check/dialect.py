@@ -72,6 +72,7 @@ class Allowance(Enum):
     TEXT_STRUCTURES = auto()
     ACTION_ARGUMENTS = auto()
     OUTSIDE_PARTS = auto()
+    TEXT_CASES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -366,6 +367,11 @@ RULES: dict[Allowance, Rule] = {
         "variables of a PROGRAM, and parts of the structures and blocks in a block, written from outside",
         "only inputs of a block are assigned from outside",
         "`VAR_INPUT`",
+    ),
+    Allowance.TEXT_CASES: Rule(
+        "CASE of a STRING or a CHAR, with texts as labels, and ranges of characters",
+        "CASE chooses by an integer or an enumeration",
+        "`IF text = 'on' THEN`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",

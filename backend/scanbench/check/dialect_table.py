@@ -20,6 +20,7 @@ _SIEMENS = frozenset(
             Allowance.OVERLOADS,
             Allowance.COMBINED_ASSIGNMENT,
             Allowance.BLOCK_WRITES,
+            Allowance.TEXT_CASES,
         ),
     }
 )

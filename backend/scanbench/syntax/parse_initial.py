@@ -4,6 +4,9 @@ from scanbench.syntax import parse_expression, parse_literal, tree
 from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.lexer import Lex
 
+BY_ORDER = "#"
+"""Before the number of a member of a structure, where its value is given by order and not by name."""
+
 # ---- initial values -----------------------------------------------------------------------------------------
 
 
@@ -15,6 +18,8 @@ def initial(c: Cursor) -> tree.Initial:
             return _array_initial(c, start)
         if c.is_("(") and c.kinds[start + 1] is NAME and (c.texts[start + 2] == ":=" or _names_part(c)):
             return _struct_initial(c)
+        if c.parts and c.is_("(") and _is_list(c):
+            return _by_order(c)
         return parse_expression.expression(c)
     finally:
         c.leave()
@@ -71,6 +76,38 @@ def _struct_initial(c: Cursor) -> tree.StructInit:
         name = c.name("the name of a member")
         c.expect(":=", "after the name of the member")
         members.append((c.texts[name], initial(c), c.span_of(name)))
+        if not c.accept(","):
+            break
+    c.expect(")", "to close the initial values")
+    return tree.StructInit(tuple(members), c.span_from(start))
+
+
+def _is_list(c: Cursor) -> bool:
+    """Whether the parenthesis has several values, `(1, (), 3)`, or nothing: SCL gives the members of a structure by order."""
+    at, depth = c.at + 1, 0
+    if c.texts[at] == ")":
+        return True
+    while c.kinds[at] is not Lex.END and c.texts[at] != ";":
+        if depth == 0 and c.texts[at] in (",", ")"):
+            return c.texts[at] == ","
+        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(c.texts[at], 0)
+        at += 1
+    return False
+
+
+def _by_order(c: Cursor) -> tree.StructInit:
+    """`(32, (), TRUE)`: the members by order; what is empty keeps the start value of its type."""
+    start = c.take()
+    members = []
+    number = 0
+    while not c.is_(")"):
+        if c.is_("(") and c.texts[c.at + 1] == ")":
+            c.take()
+            c.take()
+        else:
+            at = c.here()
+            members.append((f"{BY_ORDER}{number}", initial(c), at))
+        number += 1
         if not c.accept(","):
             break
     c.expect(")", "to close the initial values")

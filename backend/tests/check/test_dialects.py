@@ -256,7 +256,7 @@ APART = {
     Allowance.GENERIC_CONSTANTS,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
-    Allowance.OUTSIDE_PARTS,
+    Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

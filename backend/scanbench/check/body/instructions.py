@@ -32,7 +32,7 @@ OF_STRINGS = frozenset(("CONCAT", "LEN", "LEFT", "RIGHT", "MID", "INSERT", "DELE
 """Instructions whose type is that of these arguments; the library has them for each type."""
 
 RESET = frozenset(("TON", "TON_TIME", "TON_LTIME", "IEC_TIMER"))
-_MEMORY = "memory has no numbers here. Declare a variable, and use its name and its parts, `x.%B0`"
+_MEMORY = "memory has no computed addresses here. Write the address, `%MB4`, or the name of a variable and its parts, `x.%B0`"
 _BYTES = "data has other bytes here than in a controller of Siemens. Assign the members one by one"
 REFUSED = {
     **dict.fromkeys(("PEEK", "POKE"), _MEMORY),
@@ -56,13 +56,27 @@ def instructed(body: Body, node: tree.Call, wanted: Type | None = None) -> tree.
 def _of_instance(body: Body, node: tree.Call, owner: tree.Expression, name: str) -> tree.Call:
     """`timer.TON(...)` as `timer(...)`, where `timer` is of such a block: TON, TON_TIME, and so on."""
     if name not in OF_INSTANCES:
-        return node
+        return _of_data_block(body, node, owner, name)
     type = body.place(owner)[0].type
     if not isinstance(type, Record) or type.name.upper().split("_")[0] != name:
         return node
     instance = shown(owner)
     used(body, Allowance.INSTRUCTION_CALLS, node.span, f"`{instance}` is called by `{name}`", f"`{instance}(...)`")
     return replace(node, callee=owner)
+
+
+def _of_data_block(body: Body, node: tree.Call, owner: tree.Expression, name: str) -> tree.Call:
+    """`"Block"."Data"(...)` as `"Data"(...)`, where the data block is an instance of that block."""
+    found = body.scope.find(name)
+    if found is None or not isinstance(owner, tree.Name) or body.scope.find(owner.name) is not None:
+        return node
+    type = found[0].type
+    if not isinstance(type, Record) or type.name.upper() != owner.name.upper():
+        return node
+    instance = found[0].name
+    told = f"`{instance}` is called by `{owner.name}`"
+    used(body, Allowance.INSTRUCTION_CALLS, node.span, told, f"`{instance}(...)`")
+    return replace(node, callee=tree.Name(instance, node.callee.span))
 
 
 def _typed(body: Body, node: tree.Call, name: str, wanted: Type | None) -> tree.Call:

@@ -16,6 +16,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.spelled_out import spelled_out
+from scanbench.check.body.text_cases import TEXT_CASE, as_comparisons, is_text
 from scanbench.check.body.subrange_checks import holding, into
 from scanbench.check.body.unreached import never_chosen, unreached
 from scanbench.check.body.variants import variant_copy, with_type_labels
@@ -23,6 +24,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.program.bodies import bodies
 from scanbench.program.program import (
+    Assign,
     Case,
     Const,
     Continue,
@@ -145,6 +147,11 @@ def _case(body: Body, node: tree.CaseStatement) -> Stmt:
     node = with_type_labels(body, node)
     selector = value_of(body, node.selector)
     type = selector.type
+    if type is not None and is_text(type) and allowed(body, Allowance.TEXT_CASES, node.selector.span, TEXT_CASE):
+        held = body.temporary(type, node.span)
+        compared = as_comparisons(body, node, type, held.variable.rpartition(".")[2])
+        chosen = statement(body, compared)
+        return together([Assign(held, selector, node.span), *([chosen] if chosen is not None else [])], node.span)
     if not isinstance(type, Elementary) or type.kind not in (*COUNTED, Kind.BITS):
         raise body.report.reject(
             "T002", f"CASE needs an integer or an enumeration, not {type}; write IF and ELSIF.", node.selector.span

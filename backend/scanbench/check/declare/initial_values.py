@@ -28,6 +28,7 @@ from scanbench.program.types import (
     initial_of,
 )
 from scanbench.syntax import tree
+from scanbench.syntax.parse_initial import BY_ORDER
 
 
 def with_references(declared: Declarations, value: tree.Initial, type: Type) -> tuple[bytes, list[Given]]:
@@ -134,13 +135,23 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
     if not isinstance(type, Record):
         raise declared.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
     image, named = bytearray(type.initial()), set[str]()
-    for name, item, span in value.members:
+    for given, item, span in value.members:
+        name = _by_order(declared, type, given, span) if given.startswith(BY_ORDER) else given
         if name.upper() in named:
             raise declared.report.reject("D004", f"`{name}` is given twice.", span)
         named.add(name.upper())
         member = _member(declared, type, name, span, (Section.IN_OUT,))
         _put(image, member.offset, member.bit, _inside(declared, item, member.type, member.offset, name))
     return bytes(image)
+
+
+def _by_order(declared: Declarations, type: Record, given: str, span: Span) -> str:
+    """The name of the member that is given by its place."""
+    at = int(given[len(BY_ORDER) :])
+    names = [each.name for each in type.members.values() if not each.hidden]
+    if type.kind is not Kind.STRUCT or at >= len(names):
+        raise declared.report.reject("D004", f"`{type.name}` has {len(names)} members, and this is value {at + 1}.", span)
+    return names[at]
 
 
 def _inside(declared: Declarations, item: tree.Initial, type: Type, offset: int, name: str) -> bytes:
