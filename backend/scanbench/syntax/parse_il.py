@@ -58,9 +58,11 @@ def _il_follows(c: Cursor, at: int) -> bool:
         return c.texts[after] == "(" and _mnemonic_after_call(c, after)
     if text.startswith("RET"):
         return c.texts[after] != ";" and (not _same_line(c, at, after) or c.kinds[after] is Lex.END)
+    if not _same_line(c, at, after):  # half typed; a variable would go on with an operator
+        return c.kinds[after] in (NAME, Lex.KEYWORD, Lex.END)
     operand = c.kinds[after] in OPERANDS or c.texts[after] in ("TRUE", "FALSE", "-", "+")
     # `r REF= x;` and `s S= x;` begin with a variable
-    return operand and _same_line(c, at, after) and c.texts[after + 1] not in (";", "=")
+    return operand and c.texts[after + 1] not in (";", "=")
 
 
 def _mnemonic_after_call(c: Cursor, opening: int) -> bool:

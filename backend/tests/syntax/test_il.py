@@ -102,6 +102,7 @@ def test_il_in_methods() -> None:
 
 BROKEN = [
     ("LD a b\nST c", "S003 2:6 the end of the line expected after the instruction, found `b`."),
+    ("LD", "S003 3:1 an operand expected after LD, found `END_PROGRAM`."),
     ("LD a\nST\nLD b", "S003 4:1 an operand expected after ST, found `LD`."),
     ("LD a\n:= 3\nST b", "S003 3:1 an instruction (an operator, and what it works on) expected, found `:=`."),
     ("LD a\nST b := 3\nLD c", "S003 3:6 the end of the line expected after the instruction, found `:=`."),

@@ -65,8 +65,8 @@ def test_classes() -> None:
     ]  # fmt: skip
     assert [_member(each) for each in motor.methods] == [
         "method early INTERNAL  None 1", "get speed PRIVATE  INT 1", "set speed PRIVATE  INT 1",
-        "method reset PUBLIC  None 1", "get late PUBLIC  INT 1", "method method PUBLIC  INT 1",
-        "method after PUBLIC  None 1",
+        "method reset PUBLIC ACTION None 1", "get late PUBLIC  INT 1", "method method PUBLIC  INT 1",
+        "method after PUBLIC ACTION None 1",
     ]  # fmt: skip
     assert show(motor.body) == "[Assignment(target=v, value=1), Assignment(target=v, value=(v + 1))]"
     assert [each.variables[0].name for each in motor.sections] == ["v"]

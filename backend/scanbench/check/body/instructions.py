@@ -32,7 +32,9 @@ OF_STRINGS = frozenset(("CONCAT", "LEN", "LEFT", "RIGHT", "MID", "INSERT", "DELE
 """Instructions whose type is that of these arguments; the library has them for each type."""
 
 RESET = frozenset(("TON", "TON_TIME", "TON_LTIME", "IEC_TIMER"))
-_MEMORY = "memory has no computed addresses here. Write the address, `%MB4`, or the name of a variable and its parts, `x.%B0`"
+_MEMORY = (
+    "memory has no computed addresses here. Write the address, `%MB4`, or the name of a variable and its parts, `x.%B0`"
+)
 _BYTES = "data has other bytes here than in a controller of Siemens. Assign the members one by one"
 REFUSED = {
     **dict.fromkeys(("PEEK", "POKE"), _MEMORY),

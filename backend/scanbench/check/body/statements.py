@@ -16,8 +16,8 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.spelled_out import spelled_out
-from scanbench.check.body.text_cases import TEXT_CASE, as_comparisons, is_text
 from scanbench.check.body.subrange_checks import holding, into
+from scanbench.check.body.text_cases import TEXT_CASE, as_comparisons, is_text
 from scanbench.check.body.unreached import never_chosen, unreached
 from scanbench.check.body.variants import variant_copy, with_type_labels
 from scanbench.check.context import Rejected

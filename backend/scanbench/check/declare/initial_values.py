@@ -150,7 +150,9 @@ def _by_order(declared: Declarations, type: Record, given: str, span: Span) -> s
     at = int(given[len(BY_ORDER) :])
     names = [each.name for each in type.members.values() if not each.hidden]
     if type.kind is not Kind.STRUCT or at >= len(names):
-        raise declared.report.reject("D004", f"`{type.name}` has {len(names)} members, and this is value {at + 1}.", span)
+        raise declared.report.reject(
+            "D004", f"`{type.name}` has {len(names)} members, and this is value {at + 1}.", span
+        )
     return names[at]
 
 
