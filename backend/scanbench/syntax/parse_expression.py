@@ -36,6 +36,8 @@ FOREIGN = {
 """Operators of other languages that are read as two of ours."""
 UNITS = frozenset(("d", "h", "m", "s", "ms", "us", "ns"))
 MAX_CHAIN = 1000
+POINTER_TO = "POINTER TO"
+"""What a name begins with that stands for a type of pointers."""
 SIZES = frozenset("SIZEOF XSIZEOF".split())
 
 
@@ -191,7 +193,30 @@ def _call(c: Cursor, callee: tree.Expression) -> tree.Call:
     _refuse(c, callee)
     if isinstance(callee, tree.Name) and callee.name.upper() in SIZES and (of_pointer := _pointer_type(c)) is not None:
         return tree.Call(callee, (of_pointer,), _through(c, callee))
+    if isinstance(callee, tree.Name) and callee.name.upper() == "__NEW" and (made := _new_pointers(c)) is not None:
+        return tree.Call(callee, made, _through(c, callee))
     return tree.Call(callee, arguments(c, "call"), _through(c, callee))
+
+
+def _new_pointers(c: Cursor) -> tuple[tree.Argument, ...] | None:
+    """`(POINTER TO type, count)` of vendors, where memory for pointers is asked for."""
+    if c.word(1) != "POINTER" or c.texts[c.at + 2] != "TO":
+        return None
+    c.take()
+    start = c.at
+    pointers = 0
+    while c.word() == "POINTER" and c.texts[c.at + 1] == "TO":
+        c.at += 2
+        pointers += 1
+    named = f"{POINTER_TO} " * pointers + c.qualified("a type")
+    span = c.span_from(start)
+    made = [tree.Argument(None, False, tree.Name(named, span), span)]
+    while c.accept(","):
+        value = expression(c)
+        made.append(tree.Argument(None, False, value, value.span))
+    what = "call"
+    c.expect(")", f"to close the {what}")
+    return tuple(made)
 
 
 def _pointer_type(c: Cursor) -> tree.Argument | None:
@@ -206,7 +231,7 @@ def _pointer_type(c: Cursor) -> tree.Argument | None:
     span = c.span_from(start)
     what = "call"
     c.expect(")", f"to close the {what}")
-    return tree.Argument(None, False, tree.Name("POINTER TO", span), span)
+    return tree.Argument(None, False, tree.Name(POINTER_TO, span), span)
 
 
 def _through(c: Cursor, first: tree.Expression) -> Span:

@@ -6,6 +6,7 @@ from scanbench.problems import Span
 from scanbench.syntax import parse_declaration, parse_il, parse_type, tree
 from scanbench.syntax.chart import Chart, variables
 from scanbench.syntax.cursor import NAME, Cursor
+from scanbench.syntax.lexer import Lex
 from scanbench.syntax.networks import NetworkBody, memories
 from scanbench.syntax.parse_declaration import ACCESS
 from scanbench.syntax.parse_statement import BLOCK_ENDS
@@ -284,6 +285,8 @@ def _property(
         before, _ = _modifiers(c)
         c.take()
         own_access, _ = _modifiers(c)
+        if c.word() in ACCESS and c.kinds[c.at + 1] is Lex.KEYWORD:  # before its variables, as TwinCAT writes it
+            own_access = c.texts[c.take()].upper()
         own_access = before if own_access == "PUBLIC" else own_access
         sections = parse_declaration.sections(c)
         body = _whole_body(c) if not _part(c) else ()

@@ -10,7 +10,7 @@ from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
-from scanbench.check.body.vendor_forms import POINTER_TO, UNSUPPORTED, WHY, vendor_form
+from scanbench.check.body.vendor_forms import UNSUPPORTED, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Const, Expr, Load, Violates
@@ -19,6 +19,7 @@ from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, DINT, LINT, NULL, SLOT_BYTES, UDINT, ArrayType, OpenArray, Reference, Subrange
 from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
+from scanbench.syntax.parse_expression import POINTER_TO
 
 FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR", "__ISVALIDREF")
 """Calls whose argument is not a value: a variable, an array, a type."""

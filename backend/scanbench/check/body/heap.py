@@ -32,6 +32,7 @@ from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, NULL, ULINT, Kind, OpenArray, Record, Reference, Type, initial_of
 from scanbench.syntax import tree
+from scanbench.syntax.parse_expression import POINTER_TO
 
 FORMS = ("__NEW", "__DELETE")
 HEAP = "__HEAP"
@@ -65,9 +66,14 @@ def _new(body: Body, node: tree.Call, named: tree.Expression, count: tree.Expres
         arguments, named = named.arguments, named.callee
     if not isinstance(named, tree.Name | tree.MemberOf):
         raise body.report.reject("T004", "`__NEW` takes the name of a type.", named.span)
-    type = body.declarations.named(shown(named), named.span)
+    target, pointers = shown(named), 0
+    while target.startswith(f"{POINTER_TO} "):
+        target, pointers = target.removeprefix(f"{POINTER_TO} "), pointers + 1
+    type = body.declarations.named(target, named.span)
     if isinstance(type, OpenArray) or (isinstance(type, Record) and type.kind is Kind.INTERFACE):
         raise body.report.reject("T004", f"`__NEW` makes no {type}.", named.span)
+    for _ in range(pointers):
+        type = reference_type(type, pointer=True)
     size = tree.Literal("int", max(type.size, 1), None, node.span)
     taken = _call(body, "Take", (size, count or tree.Literal("int", 1, None, node.span)), node.span)
     pointer = reference_type(type, pointer=True)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from scanbench.check.body import targets
 from scanbench.check.body.action_calls import action_call
-from scanbench.check.body.allowed import allowed
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.arguments import together
 from scanbench.check.body.assignments import assign, condition
 from scanbench.check.body.bare import bare_call
@@ -37,13 +37,14 @@ from scanbench.program.program import (
     Place,
     Repeat,
     Return,
+    Sequence,
     Stmt,
     Try,
     While,
 )
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import Elementary, Enumeration, Kind, Subrange, base_of
+from scanbench.program.types import LINT, Elementary, Enumeration, Kind, Subrange, base_of
 from scanbench.program.untyped import bounds, settle
 from scanbench.syntax import tree
 
@@ -149,9 +150,11 @@ def _case(body: Body, node: tree.CaseStatement) -> Stmt:
     type = selector.type
     if type is not None and is_text(type) and allowed(body, Allowance.TEXT_CASES, node.selector.span, TEXT_CASE):
         held = body.temporary(type, node.span)
-        compared = as_comparisons(body, node, type, held.variable.rpartition(".")[2])
-        chosen = statement(body, compared)
-        return together([Assign(held, selector, node.span), *([chosen] if chosen is not None else [])], node.span)
+        chosen = statement(body, as_comparisons(body, node, type, held.variable.rpartition(".")[2]))
+        assert isinstance(chosen, If)
+        test, inside = chosen.branches[0]
+        kept = Sequence((Assign(held, selector, node.span),), test)
+        return replace(chosen, branches=((kept, inside), *chosen.branches[1:]))
     if not isinstance(type, Elementary) or type.kind not in (*COUNTED, Kind.BITS):
         raise body.report.reject(
             "T002", f"CASE needs an integer or an enumeration, not {type}; write IF and ELSIF.", node.selector.span
@@ -221,7 +224,7 @@ def _for(body: Body, node: tree.ForStatement) -> Stmt:
     start = as_type(body, node.start, type, "The start value" if type is base else f"`{shown(node.variable)}`")
     start = holding(body, start, counter, node.start.span)
     end = as_type(body, node.end, base, "The end value")
-    step = Const(base, 1) if node.step is None else _step(body, node.step, base)
+    step = Const(base, 1) if node.step is None else _downward(body, node.step, base) or _step(body, node.step, base)
     if isinstance(type, Subrange):
         end = _for_end(body, node, type, end, step)
     trap = body.trap(TrapKind.LOOP, node.span, "this FOR has more rounds than a scan may take")
@@ -263,6 +266,20 @@ def _for_end(body: Body, node: tree.ForStatement, type: Subrange, end: Expr, ste
         sites = body.report.checks
         sites[made.site - 1] = replace(sites[made.site - 1], low=type.low, high=type.high)
     return made
+
+
+def _downward(body: Body, node: tree.Expression, type: Elementary) -> Expr | None:
+    """A constant below 0 as the step of an unsigned counter, where the dialect has that; None of others."""
+    if type.kind is not Kind.UINT or type.size == LINT.size or not may(body, Allowance.WIDE_RESULTS):
+        return None
+    mark = body.report.mark()
+    step = settle(body.expression(node))
+    if isinstance(step, Const) and isinstance(step.value, int) and step.value < 0:
+        what = f"The counter is {type}, and its step is negative"
+        used(body, Allowance.WIDE_RESULTS, node.span, what, "a counter of a signed type")
+        return Const(LINT, step.value)
+    body.report.undo(mark)
+    return None
 
 
 def _step(body: Body, node: tree.Expression, type: Elementary) -> Expr:

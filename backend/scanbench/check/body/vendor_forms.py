@@ -28,8 +28,6 @@ UNSUPPORTED = {
     "TEST_AND_SET": "write an IF and an assignment, as tasks do not interrupt each other here",
 }
 """Operators of CODESYS and TwinCAT that no dialect has here, and what to do instead."""
-POINTER_TO = "POINTER TO"
-"""The name by which `SIZEOF(POINTER TO INT)` passes on what is no expression."""
 
 
 def vendor_form(body: Body, node: tree.Call, name: str) -> Expr | None:
