@@ -59,6 +59,7 @@ class Allowance(Enum):
     INSTRUCTION_TYPES = auto()
     SIGNED_TEXTS = auto()
     TRUE_TEXTS = auto()
+    HALVES_AWAY = auto()
     TEXT_NUMBERS = auto()
     BLOCK_MOVES = auto()
     VARIANTS = auto()
@@ -197,6 +198,11 @@ RULES: dict[Allowance, Rule] = {
         "every REAL but 0.0 is TRUE as a BOOL, and of all texts 'TRUE' and 'true' alone",
         "a REAL is rounded before it becomes a BOOL, and the text '1' is TRUE as well",
         "`r <> 0.0`",
+    ),
+    Allowance.HALVES_AWAY: Rule(
+        "`REAL_TO_INT` and the like round halves away from zero, and what is beyond the limits loses its upper bits",
+        "halves are rounded to the even number, and what is beyond the limits is the nearest limit",
+        "`REAL_TO_INT(LIMIT(-32768.0, r, 32767.0))`",
     ),
     Allowance.TEXT_NUMBERS: Rule(
         "a text with a base or with `_` as an integer, '16#1F' or '1_000', of which the low bits are taken",

@@ -253,7 +253,7 @@ APART = {
     Allowance.WRAPPED_REALS, Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_TYPES,
     Allowance.SIGNED_TEXTS, Allowance.TRUE_TEXTS, Allowance.TEXT_NUMBERS, Allowance.BLOCK_MOVES, Allowance.VARIANTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
-    Allowance.GENERIC_CONSTANTS,
+    Allowance.GENERIC_CONSTANTS, Allowance.HALVES_AWAY,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
     Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES,

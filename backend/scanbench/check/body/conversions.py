@@ -13,6 +13,7 @@ The rules, once:
 - An enumeration converts as its base type, without a look at its values.
 """
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -36,7 +37,7 @@ from scanbench.program.types import (
     Subrange,
     Type,
 )
-from scanbench.program.untyped import bounds
+from scanbench.program.untyped import bounds, wrap
 
 TRUNC = re.compile(r"(?:(\w+?)_)?TRUNC(?:_(\w+))?")
 FROM_BCD = re.compile(r"(?:(\w+?)_)?BCD_TO_(\w+)")
@@ -78,6 +79,8 @@ class Vendor:
     """Every REAL but 0.0 is TRUE, and of all texts 'TRUE' and 'true'."""
     text_numbers: bool = False
     """Texts have a base and `_`, and lose their upper bits."""
+    halves_away: bool = False
+    """A REAL is rounded to an integer with halves away from zero, and loses its upper bits."""
 
 
 STANDARD = Vendor()
@@ -173,6 +176,14 @@ def _to_bcd(expr: Expr, source: Type, target: Type, library: Library) -> Expr | 
     return fold.convert(target, made)
 
 
+def _nearest(value: float, wide: bool) -> int:
+    """What `__NEAREST` and `__NEAREST_ULINT` compute."""
+    if not -(2.0**63) <= value < (2.0**64 if wide else 2.0**63):
+        return -(1 << 63)
+    whole = math.trunc(value)
+    return whole + (abs(value - whole) >= 0.5) * (1 if value > 0 else -1)
+
+
 class _Converter:
     """Conversions between elementary types and strings; each gives None where there is none."""
 
@@ -198,10 +209,20 @@ class _Converter:
             return self._char(expr, source, target)
         if source.kind is Kind.REAL and target.kind is Kind.BOOL and self._vendor.true_texts:
             return Compare("ne", BOOL, expr, Const(source, 0.0))
+        if source.kind is Kind.REAL and target.kind in WHOLE and self._vendor.halves_away:
+            return self._nearest(expr, target)
         if {source.kind, target.kind} in ({Kind.BITS, Kind.REAL}, {Kind.BOOL, Kind.REAL}):
             whole = ULINT if source.kind is not Kind.REAL else UNSIGNED[target.size]
             return fold.convert(target, fold.convert(whole, expr))
         return fold.convert(target, expr)
+
+    def _nearest(self, expr: Expr, target: Elementary) -> Expr | None:
+        """A REAL as CODESYS makes an integer of it: by way of 64 bits with a sign, and of 64 bits without one by these, too."""
+        wide = target.size == ULINT.size and target.kind is not Kind.INT
+        if isinstance(expr, Const) and isinstance(expr.value, float):
+            return Const(target, wrap(_nearest(expr.value, wide), target))
+        made = self.library("__NEAREST_ULINT" if wide else "__NEAREST", fold.convert(LREAL, expr))
+        return None if made is None else fold.convert(target, made)
 
     def _char(self, expr: Expr, source: Elementary, target: Elementary) -> Expr | None:
         if source.kind is target.kind and target.size < source.size:

@@ -279,7 +279,10 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         target = wanted if whole and wanted is not None else DINT
     raw = in_library(node.span)
     vendor = conversions.Vendor(
-        may(body, Allowance.NUMBER_OF_BITS), may(body, Allowance.TRUE_TEXTS), may(body, Allowance.TEXT_NUMBERS)
+        may(body, Allowance.NUMBER_OF_BITS),
+        may(body, Allowance.TRUE_TEXTS),
+        may(body, Allowance.TEXT_NUMBERS),
+        may(body, Allowance.HALVES_AWAY),
     )
     value = wide.settled(body, value)
     result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, vendor)
