@@ -3,17 +3,11 @@
  * machine does not count) until it is drawn for the first time, of a second of live power, of an edit and of a second of scrolling, and
  * frames a second, which depend on the machine. Nothing here is a test. `make bench-ui`, or `node bench/drawing.mjs`.
  */
-import { spawn } from 'node:child_process';
-import { mkdtemp, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
 import { chromium } from '@playwright/test';
+import { withServer } from './server.mjs';
 
-const COMMAND = process.env.SCANBENCH ?? resolve(import.meta.dirname, '../../.venv/bin/scanbench');
 const [RUNGS, CONTACTS, SECONDS, EDITS] = [500, 11, 5, 20];
 const NAMES = Array.from({ length: 300 }, (_, index) => `x${index}`);
-const data = await mkdtemp(join(tmpdir(), 'scanbench-drawing-'));
-const server = spawn(COMMAND, ['serve', '--port', '0', '--data', data], { detached: true });
 
 /** The same numbers each time. */
 let seed = 18;
@@ -45,8 +39,7 @@ END_RESOURCE END_CONFIGURATION
 `,
 };
 
-async function main() {
-  const address = await printed();
+async function main(address) {
   const instance = await begin(new URL(address));
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
@@ -170,23 +163,4 @@ async function begin({ origin, searchParams }) {
   return id;
 }
 
-function printed() {
-  return new Promise((ready, failed) => {
-    let said = '';
-    const hear = (chunk) => {
-      said += chunk;
-      const found = /Scanbench is ready: (http:\/\/\S+)/.exec(said)?.[1];
-      if (found) ready(found);
-    };
-    server.stdout.on('data', hear);
-    server.stderr.on('data', hear);
-    server.once('exit', () => failed(new Error(`the server ended: ${said}`)));
-  });
-}
-
-try {
-  await main();
-} finally {
-  process.kill(-server.pid, 'SIGKILL');
-  await rm(data, { recursive: true, force: true });
-}
+await withServer('drawing', main);

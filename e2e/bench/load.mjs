@@ -3,19 +3,12 @@
  * the same at the second visit, and frames and long tasks while values change. Prints figures; nothing here is a test.
  * `make bench-ui`: a server of its own, with the sample.
  */
-import { spawn } from 'node:child_process';
-import { mkdtemp, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
 import { chromium } from '@playwright/test';
+import { withServer } from './server.mjs';
 
-const COMMAND = process.env.SCANBENCH ?? resolve(import.meta.dirname, '../../.venv/bin/scanbench');
 const SECONDS = 5;
-const data = await mkdtemp(join(tmpdir(), 'scanbench-load-'));
-const server = spawn(COMMAND, ['serve', '--port', '0', '--data', data], { detached: true });
 
-async function main() {
-  const address = await printed();
+async function main(address) {
   const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, locale: 'en-GB' });
   const first = await visit(context, address);
@@ -39,20 +32,6 @@ async function main() {
 }
 
 const kilobytes = (bytes) => `${Math.round(bytes / 1000).toLocaleString('en')} KB`;
-
-function printed() {
-  return new Promise((ready, failed) => {
-    let said = '';
-    const hear = (chunk) => {
-      said += chunk;
-      const found = /Scanbench is ready: (http:\/\/\S+)/.exec(said)?.[1];
-      if (found) ready(found);
-    };
-    server.stdout.on('data', hear);
-    server.stderr.on('data', hear);
-    server.once('exit', () => failed(new Error(`the server ended: ${said}`)));
-  });
-}
 
 /** One visit in a new tab; the second one finds what the first one left in the browser's cache. */
 async function visit(context, address) {
@@ -103,9 +82,4 @@ async function visit(context, address) {
   return { early, all, ms, frames };
 }
 
-try {
-  await main();
-} finally {
-  process.kill(-server.pid, 'SIGKILL');
-  await rm(data, { recursive: true, force: true });
-}
+await withServer('load', main);

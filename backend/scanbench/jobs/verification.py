@@ -199,7 +199,7 @@ def _told(kind: type[S], ref: int, batch: Sequence[ScanVerified], *, whole: bool
         ref, max(batch[-1].scan, batch[-1].last) if batch else -1, compared, rows, _columns(batch),
         tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
         tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
-        max((each.used for each in batch), default=0), tuple(skipped),
+        max((each.used for each in batch), default=0), tuple(skipped), sum(each.idle for each in batch) if whole else 0,
     )  # fmt: skip
 
 

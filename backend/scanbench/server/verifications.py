@@ -356,6 +356,7 @@ def _head(status: VerificationStatus, project: str, instance: str, model: str, w
         status.first if status.scan is None else status.scan, status.compared, status.skipped, status.differing,
         f"Scanbench {__version__}", status.trace, status.interval_ns, status.forgotten, status.wanted.limit,
         status.stretches, status.coverage, " ".join(filter(None, (status.note, status.message))),
+        unreached=status.not_reached,
     )  # fmt: skip
 
 

@@ -47,6 +47,7 @@ def verified(status: VerificationStatus, came: ScansVerified) -> VerificationSta
         skipped=status.skipped + sum(last - first + 1 for first, last in came.skipped),
         stretches=with_stretches(status.stretches, came.skipped),
         differing=status.differing + sum(row.first is not None for row in came.rows), used=max(status.used, came.used),
+        not_run=status.not_run + came.not_run,
         coverage=(came.coverage if isinstance(came, ScansDone) else None) or status.coverage,
     )  # fmt: skip
 

@@ -275,6 +275,11 @@ class ScanVerified:
         return any(row.compared for row in self.rows) and not self.cut
 
     @property
+    def idle(self) -> bool:
+        """Whether the range did not run in it, so that there was nothing of it to compare."""
+        return self.compared and all(row.kind == "none" for row in self.rows)
+
+    @property
     def cut(self) -> bool:
         """Whether something of it was not compared, as it found no room in the record."""
         return any(row.cut for row in self.rows)

@@ -82,6 +82,10 @@ class VerificationInfo(Wire):
     forgotten: int = Field(description="rows at the front that found no room any more")
     used: int = Field(description="the most uses of a row")
     coverage: VerifyCoverage | None = Field(description="of a trace: what was compared so far, and what was not")
+    not_run: int = Field(
+        default=0, description="scans of `compared` in which the range did not run: there was nothing of it to compare"
+    )
+    not_reached: int = Field(default=0, description="scans of the past that were wanted and did not run until now")
     generation: int = Field(description="raised when rows that were already sent have changed")
 
 

@@ -38,7 +38,7 @@ def info(of: VerificationStatus) -> wire.VerificationInfo:
             "scan": of.scan, "compared": of.compared, "skipped": of.skipped, "stretches": list(of.stretches),
             "differing": of.differing, "first_difference": of.first_difference,
             "first_scan": of.first_scan, "rows": of.rows, "forgotten": of.forgotten, "used": of.used,
-            "generation": of.generation, "coverage": of.coverage,
+            "generation": of.generation, "coverage": of.coverage, "not_run": of.not_run, "not_reached": of.not_reached,
         }
     )  # fmt: skip
 

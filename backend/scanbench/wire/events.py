@@ -355,6 +355,14 @@ class VerificationStatus:
     note: str = ""
     """What is not quite as it was asked for."""
     coverage: VerifyCoverage | None = None
+    not_run: int = 0
+    """Scans of `compared` in which the range did not run: there was nothing of it to compare."""
+
+    @property
+    def not_reached(self) -> int:
+        """Scans of the past that were wanted, and did not run until now."""
+        wanted = self.wanted.last
+        return 0 if self.source != "past" or wanted is None or self.last is None else max(0, wanted - self.last)
 
 
 @dataclass(frozen=True, slots=True)

@@ -173,6 +173,8 @@ class ScansVerified:
     used: int
     skipped: tuple[tuple[int, int], ...] = ()
     """Scans since the last message of which nothing was compared, as stretches, both ends included."""
+    not_run: int = 0
+    """Scans of `compared` in which the range did not run."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,11 @@
 """Verification through the whole house: REST and WebSocket, session, a job process, both engines."""
 
+from typing import cast
+
 import pytest
 
+from scanbench.client import verdict
+from scanbench.client.shapes.verification import VerificationInfo
 from tests.web.server import Browser, Message, Server
 
 MODEL = "CJ1M-CPU63"
@@ -193,6 +197,37 @@ def test_step_by_step_both_sides_stop_in_the_range_only(server: Server) -> None:
         places = [(row["place"] and row["place"]["line"], row["next"] and row["next"]["line"]) for row in steps]
         assert places == [(None, 7), (7, 16), (16, None), (None, 7)]
         assert [row["kind"] for row in found] == ["step", "step", "step", "pass", "step"]
+
+
+UNREACHED = """\
+PROGRAM Main
+VAR n : INT; one : Ramp; END_VAR
+  n := n + 1;
+  IF n < 0 THEN one(target := n); END_IF;
+END_PROGRAM
+FUNCTION_BLOCK Ramp
+VAR_INPUT target : INT; END_VAR VAR_OUTPUT speed : INT; END_VAR
+  speed := target;
+END_FUNCTION_BLOCK
+"""
+
+
+def test_of_a_range_that_never_ran_nothing_is_said(server: Server) -> None:
+    instance = server.instance("never runs", MODEL, main=UNREACHED)
+    with server.browser(instance) as browser:
+        scan = paused(browser)
+        scans(browser, 3)
+        begun = begin(server, instance, first=scan, last=scan + 9, range={"pou": "Ramp"})
+        over = ended(browser, server, instance, begun["id"])
+        assert (over["compared"], over["not_run"], over["not_reached"], over["differing"]) == (3, 3, 7, 0)
+        assert verdict(cast(VerificationInfo, over)) == "nothing compared"
+        path = f"/api/verifications/{begun['id']}/export"
+        exported = server.http.get(path, params={"format": "json"}).json()
+        assert (exported["same"], exported["not_reached"]) == (None, 7)
+        assert 'errors="1"' in server.http.get(path, params={"format": "junit"}).text
+        whole = ended(browser, server, instance, begin(server, instance, first=scan, last=scan + 2)["id"])
+        assert (whole["compared"], whole["not_run"], whole["not_reached"]) == (3, 0, 0)
+        assert verdict(cast(VerificationInfo, whole)) == "same"
 
 
 def test_kept_and_exported(server: Server) -> None:

@@ -9746,6 +9746,18 @@ export interface components {
             /** Message */
             message: string;
             /**
+             * Not Reached
+             * @description scans of the past that were wanted and did not run until now
+             * @default 0
+             */
+            not_reached: number;
+            /**
+             * Not Run
+             * @description scans of `compared` in which the range did not run: there was nothing of it to compare
+             * @default 0
+             */
+            not_run: number;
+            /**
              * Pace
              * @enum {string}
              */

@@ -18,10 +18,14 @@ def verdict(found: shapes.VerificationInfo) -> Verdict:
     the program wrote; what was left out is in `skipped`, `stretches`, `message` and `coverage`."""
     if found["differing"]:
         return "differs"
-    if not found["compared"]:
+    if found["compared"] == found["not_run"]:  # there was nothing to compare, also where the range never ran
         return "nothing compared"
     coverage = found["coverage"]
-    left_out = found["skipped"] or (coverage is not None and (coverage["unrecorded"] or coverage["more"]))
+    left_out = (
+        found["skipped"]
+        or found["not_reached"]
+        or (coverage is not None and (coverage["unrecorded"] or coverage["more"]))
+    )
     return "same in what was compared" if left_out or found["state"] != "done" else "same"
 
 

@@ -117,6 +117,10 @@ class VerificationInfo(TypedDict):
     """the most uses of a row."""
     coverage: VerifyCoverage | None
     """of a trace: what was compared so far, and what was not."""
+    not_run: int
+    """scans of `compared` in which the range did not run: there was nothing of it to compare."""
+    not_reached: int
+    """scans of the past that were wanted and did not run until now."""
     generation: int
     """raised when rows that were already sent have changed."""
 

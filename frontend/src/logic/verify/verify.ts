@@ -20,6 +20,9 @@ export function titleOf({ title }: Pick<VerificationInfo, "title">): string {
     : t("verify.title.lines", { of, first, last });
 }
 
+/** The scans that were compared and in which the range ran: where it did not, there was nothing of it to compare. */
+export const ranIn = ({ compared, not_run }: Pick<VerificationInfo, "compared" | "not_run">) => compared - not_run;
+
 export const isEdited = (row: VerifyRow) => Object.values(row.inputs).some(({ set }) => set !== null);
 
 /** Whether a unit of a row differs: an output with two results, or an input that the monitor would have read differently. */

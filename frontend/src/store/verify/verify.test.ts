@@ -23,6 +23,8 @@ const info = (memory: VerificationInfo["memory"], compared: number): Verificatio
   compared,
   skipped: 0,
   coverage: null,
+  not_run: 0,
+  not_reached: 0,
   stretches: [],
   differing: 0,
   first_difference: null,

@@ -33,6 +33,8 @@ const info = (part: Partial<VerificationInfo>): VerificationInfo => ({
   compared: 0,
   skipped: 0,
   coverage: null,
+  not_run: 0,
+  not_reached: 0,
   stretches: [],
   differing: 0,
   first_difference: null,

@@ -1,6 +1,6 @@
 import { type KeyboardEvent, useState } from "react";
 import { dayTime, grouped } from "../../../logic/format/numbers";
-import { titleOf } from "../../../logic/verify/verify";
+import { ranIn, titleOf } from "../../../logic/verify/verify";
 import { useWidths } from "../../../store/page/columns";
 import { useBench } from "../../../store/plc/bench";
 import {
@@ -170,11 +170,11 @@ function RecordLine({ record, onDelete }: { record: VerificationRecord; onDelete
         {info.source === "trace" ? info.trace : instance}, {versionOf(program_version)}
       </td>
       <td className="num" title={scans}>
-        {grouped(info.compared)}
+        {grouped(ranIn(info))}
       </td>
       <td className="num">
         {info.differing === 0 ? (
-          <span className="muted">{t("verify.records.same")}</span>
+          <span className="muted">{t(ranIn(info) === 0 ? "verify.state.nothing" : "verify.records.same")}</span>
         ) : (
           <span className="st fatal">
             <Icon name="differs" small />

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { grouped, percent } from "../../../logic/format/numbers";
-import { stretchLines } from "../../../logic/verify/verify";
+import { ranIn, stretchLines } from "../../../logic/verify/verify";
 import { unitsOf } from "../../../logic/verify/verifyColumns";
 import { usePlc } from "../../../store/plc/plc";
 import {
@@ -29,6 +29,7 @@ const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> 
   done: ["running", "check"],
   failed: ["fatal", "error"],
 };
+const NOTHING: (typeof STATES)["done"] = ["halted", "warning"];
 
 /** The progress, the result, and the buttons for the next and the previous difference. */
 export function Counts({ shown }: { shown: ShownVerification }) {
@@ -37,10 +38,22 @@ export function Counts({ shown }: { shown: ShownVerification }) {
   const [kept, sayKept] = useState<string | null>(null);
   const onlyDiffering = useVerifyRows((rows) => rows.onlyDiffering);
   const none = useVerifyRows((rows) => rows.differing.length === 0);
+  const same = ranIn(info) === 0 ? t("verify.differences.nothing") : t("verify.differences.none");
   return (
     <div className="sub tall vfcounts">
-      <Stat value={info.compared} word={t("verify.compared")} id="compared" />
-      <Skipped info={info} />
+      <Stat value={ranIn(info)} word={t("verify.compared")} id="compared" />
+      {info.not_run > 0 && (
+        <Stat value={info.not_run} word={t("verify.idle")} id="notrun" about={t("verify.idle.about")} />
+      )}
+      {info.not_reached > 0 && (
+        <Stat
+          value={info.not_reached}
+          word={t("verify.notreached")}
+          id="notreached"
+          about={t("verify.notreached.about")}
+        />
+      )}
+      {(info.skipped > 0 || info.not_run === 0) && <Skipped info={info} />}
       <Stat value={info.differing} word={t("verify.differ")} id="differ" bad={info.differing > 0} />
       <State info={info} />
       <RecordUse info={info} />
@@ -76,7 +89,7 @@ export function Counts({ shown }: { shown: ShownVerification }) {
       </button>
       <Export shown={shown} onKeep={() => ask("keep")} />
       <span className="vr" />
-      <Jumps none={none} />
+      <Jumps none={none ? same : undefined} />
       {asked === "columns" && <ColumnsOf shown={shown} onClose={() => ask(null)} />}
       {asked === "coverage" && info.coverage && (
         <Coverage coverage={info.coverage} trace={info.trace} onClose={() => ask(null)} />
@@ -109,11 +122,12 @@ interface StatProps {
   word: string;
   id: string;
   bad?: boolean;
+  about?: string;
 }
 
-function Stat({ value, word, id, bad = false }: StatProps) {
+function Stat({ value, word, id, bad = false, about }: StatProps) {
   return (
-    <span className={`stat${bad ? " st-bad" : ""}`} data-testid={`verify:${id}`}>
+    <span className={`stat${bad ? " st-bad" : ""}`} title={about} data-testid={`verify:${id}`}>
       <b>
         {bad && <Icon name="differs" small />}
         {grouped(value)}
@@ -145,11 +159,17 @@ function State({ info }: { info: VerificationInfo }) {
   // A verification that keeps up with a running PLC waits for each next scan: that is its normal state.
   const keepsUp = info.state === "waiting" && info.source === "live" && info.pace === "free" && runs;
   const state = keepsUp ? "verifying" : info.state;
-  const [tone, icon] = STATES[state];
+  const nothing = state === "done" && info.differing === 0 && ranIn(info) === 0;
+  const [tone, icon] = nothing ? NOTHING : STATES[state];
   const about = info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) });
   return (
     <span className="vfstate" role="status" data-state={info.state}>
-      <StateWord tone={tone} icon={icon} word={t(`verify.state.${state}`)} title={info.message} />
+      <StateWord
+        tone={tone}
+        icon={icon}
+        word={t(nothing ? "verify.state.nothing" : `verify.state.${state}`)}
+        title={info.message}
+      />
       <span className="cut faint" title={about}>
         {about}
       </span>
@@ -192,8 +212,9 @@ function Export({ shown, onKeep }: { shown: ShownVerification; onKeep: () => voi
   );
 }
 
-function Jumps({ none }: { none: boolean }) {
-  const why = none ? t("verify.differences.none") : undefined;
+/** `none`: why there is nowhere to go. */
+function Jumps({ none: why }: { none: string | undefined }) {
+  const none = why !== undefined;
   return (
     <>
       <button

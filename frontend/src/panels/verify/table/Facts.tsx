@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
-import { isEdited, resultOf, variableOf } from "../../../logic/verify/verify";
+import { isEdited, ranIn, resultOf, variableOf } from "../../../logic/verify/verify";
 import { bitsBeside, differingBits, shownValue, type ValueType } from "../../../logic/verify/verifyValues";
 import { showWriterOf } from "../../../store/past/verifyWriter";
 import { useBench } from "../../../store/plc/bench";
@@ -125,11 +125,13 @@ function Hint({ shown, count }: { shown: ShownVerification; count: number }) {
   );
 }
 
-function sayOfAll({ compared, differing }: ShownVerification["info"], kept: number): string {
+function sayOfAll(info: ShownVerification["info"], kept: number): string {
+  const { compared, differing } = info;
   if (kept === 1) return t("verify.hint.differs.one");
   if (kept > 1) return t("verify.hint.differs", { count: grouped(kept) });
   if (differing > 0) return t("verify.hint.forgotten", { count: grouped(differing) });
-  return t(compared > 0 ? "verify.hint.same" : "verify.hint.none");
+  if (ranIn(info) > 0) return t("verify.hint.same");
+  return t(compared > 0 ? "verify.hint.idle" : "verify.hint.none");
 }
 
 interface SidesProps {

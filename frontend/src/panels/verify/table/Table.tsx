@@ -9,7 +9,7 @@ import {
   useRef,
   useState,
 } from "react";
-import { firstDifferingUnit, isGoing } from "../../../logic/verify/verify";
+import { firstDifferingUnit, isGoing, ranIn } from "../../../logic/verify/verify";
 import {
   arranged,
   heldAcross,
@@ -213,11 +213,11 @@ function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boo
     info.state === "failed"
       ? info.message
       : only && info.rows > 0
-        ? info.compared > 0
+        ? ranIn(info) > 0
           ? t(info.coverage?.ungiven.length ? "verify.nodifference.ungiven" : "verify.nodifference", {
-              count: info.compared,
+              count: ranIn(info),
             })
-          : t("verify.hint.none")
+          : t(info.compared > 0 ? "verify.hint.idle" : "verify.hint.none")
         : t(isGoing(info) ? "verify.norows.yet" : "verify.norows");
   return (
     <p className="lonely faint vfnone" role="status">

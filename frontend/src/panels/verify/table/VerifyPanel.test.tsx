@@ -80,6 +80,8 @@ const INFO: VerificationInfo = {
   compared: 3,
   skipped: 0,
   coverage: null,
+  not_run: 0,
+  not_reached: 0,
   differing: 1,
   first_difference: DIFFERENCE,
   limit: 4096,
@@ -100,18 +102,21 @@ const USE: VerifyUse = {
 };
 
 /** A verification of three scans; what is set in the wrong one makes the reference give A, too. */
-async function openVerify(begun = INFO) {
+async function openVerify(begun = INFO, kind: "pass" | "none" = "pass") {
   let info = begun;
   let set: string | null = null;
   const page = await openPage((server: FakeServer) => {
-    const rows = () => [500, WRONG, 502].map((scan) => rowOf(scan, set));
+    const rows = () =>
+      [500, WRONG, 502].map((scan) =>
+        kind === "pass" ? rowOf(scan, set) : { ...rowOf(scan, null), kind, outputs: {}, inputs: {}, differences: [] },
+      );
     server.on("GET", "/instances/*/verifications", () => [info]);
     server.on("GET", "/verifications/*/rows", () => ({
       columns: COLUMNS,
       rows: rows(),
       first: 0,
       count: 3,
-      differing: [1],
+      differing: kind === "pass" ? [1] : [],
     }));
     server.on("PATCH", "/verifications/*", ({ body }) => {
       info = { ...info, memory: body.memory ?? info.memory, generation: info.generation + 1 };
@@ -226,4 +231,17 @@ test("of a controller log it says what was compared, and what was not", async ()
     expect(said).toContain(word);
   expect(said).not.toContain(t("verify.coverage.remembered"));
   expect(said).toContain(t("verify.coverage.more", { count: "7" }));
+});
+
+test("of a range that never ran it says that nothing was compared", async () => {
+  await openVerify(
+    { ...INFO, state: "done", last: 502, differing: 0, first_difference: null, not_run: 3, not_reached: 7 },
+    "none",
+  );
+  expect(textOf(screen.getByTestId("verify:compared"))).toContain("0");
+  expect(textOf(screen.getByTestId("verify:notrun"))).toContain("3");
+  expect(textOf(screen.getByTestId("verify:notreached"))).toContain("7");
+  expect(textOf(screen.getByRole("status"))).toContain(t("verify.state.nothing"));
+  expect(button(t("verify.first")).title).toBe(t("verify.differences.nothing"));
+  expect(textOf(document.body)).not.toContain(t("verify.hint.same"));
 });
