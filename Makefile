@@ -209,7 +209,7 @@ system-git:
 
 # Clients of protocols that are not ours: the tests connect them to a virtual PLC.
 system-clients:
-	@command -v nmap >/dev/null && command -v mbpoll >/dev/null || { $(call apt_install,nmap and mbpoll,nmap mbpoll); }
+	@command -v nmap >/dev/null && command -v mbpoll >/dev/null && test -x /usr/sbin/mosquitto || { $(call apt_install,nmap and mbpoll and mosquitto,nmap mbpoll mosquitto); }
 
 # ------------------------------------------------------------------------------------------------ upkeep
 COMPILE = ../.lock-venv/bin/pip-compile --quiet --upgrade --generate-hashes --strip-extras --allow-unsafe \

@@ -11,7 +11,7 @@ from scanbench.runtime.command import Command
 from scanbench.wire.host import Sources
 from scanbench.wire.memory import AreaSpan
 from scanbench.wire.opcua import RaisedError
-from scanbench.wire.variables import VariablesAre
+from scanbench.wire.variables import VariablesAre, VariablesDescribed
 
 
 class Away(Exception):
@@ -87,6 +87,9 @@ class Plc(Protocol):
 
     def listen(self, changed: Callable[[], None]) -> Callable[[], None]:
         """Has `changed` called whenever program or errors may have changed; what is given back ends that."""
+
+    async def describe(self, paths: tuple[str, ...]) -> VariablesDescribed:
+        """What paths mean in the program that runs; `Away`."""
 
     async def variables(self, paths: tuple[str, ...]) -> VariablesAre:
         """Variables of the program, all of one seam; `Away`."""

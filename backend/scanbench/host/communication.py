@@ -2,6 +2,7 @@
 
 from scanbench.debug.debugger import Debugger
 from scanbench.host.link import Link
+from scanbench.host.lookup import watch_item
 from scanbench.host.services import Services
 from scanbench.host.variables import Variables
 from scanbench.program.layout import Layout
@@ -17,7 +18,7 @@ from scanbench.runtime.write_areas import WriteAreas
 from scanbench.runtime.write_variables import WriteVariables
 from scanbench.wire.host import Ack, Submit
 from scanbench.wire.memory import AreasAre, AreaSpan, ReadAreas
-from scanbench.wire.variables import ReadVariables
+from scanbench.wire.variables import DescribeVariables, ReadVariables, VariablesDescribed
 
 UNCHANGED = "nothing changed"
 """What is answered to a write of what is there already: it is not kept in the run."""
@@ -38,6 +39,8 @@ class Communication:
                 self._link.post(areas_are(message, loaded, memory, self._timeline.live_journal))
             case ReadVariables():
                 self._link.post(self._variables.are(message, *self._timeline.live_image))
+            case DescribeVariables():
+                self._link.post(described(message, self._timeline.live_image[0]))
             case Submit(ref, WriteAreas() | WriteVariables() | CopyAreas() | ForceSeveral() as command):
                 self._write(ref, command)
             case _:
@@ -58,6 +61,12 @@ class Communication:
             self._link.post(Ack(ref, False, outcome.message, scan, outcome.near))
         else:
             self._link.post(Ack(ref, True, outcome.plan.message, outcome.scan))
+
+
+def described(question: DescribeVariables, loaded: Loaded) -> VariablesDescribed:
+    """Answers a `DescribeVariables`."""
+    items = [watch_item(loaded.program, number, path)[0] for number, path in enumerate(question.paths)]
+    return VariablesDescribed(question.ref, loaded.version, tuple(items))
 
 
 def areas_are(question: ReadAreas, loaded: Loaded, memory: bytes | bytearray, journal: Journal) -> AreasAre:

@@ -15,6 +15,7 @@ from scanbench.comm.modbus.map_file import MAP_FILE
 from scanbench.comm.modbus.mapping import Mapped
 from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.modbus.wires import PlantWanted
+from scanbench.comm.mqtt.settings import MqttWanted
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
 from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
@@ -31,6 +32,7 @@ from scanbench.faults.line_faults import (
 )
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_map import MapFile, ModbusMap
+from scanbench.server.communication_mqtt import Mqtt
 from scanbench.server.communication_network import Member, PlcNetwork
 from scanbench.server.communication_plant import Plant
 from scanbench.server.communication_plc import SessionPlc
@@ -105,6 +107,7 @@ class _Unit:
     session: Session
     readers: ErrorReaders
     plant: Plant
+    mqtt: Mqtt
     map: ModbusMap
     servers: dict[ServerKind, _Running] = field(default_factory=dict)
     turning: asyncio.Lock = field(default_factory=asyncio.Lock)
@@ -131,7 +134,8 @@ class Communication:
         """A PLC is there: opens the servers that were on."""
         kept, readers = session.row.communication or {}, ErrorReaders(session.model)
         plant = Plant(session, readers, kept.get("plant"), lambda: _tell_clients(unit))
-        unit = self._units[session.id] = _Unit(session, readers, plant, ModbusMap(session, self._map_file))
+        mqtt = Mqtt(session, readers, kept.get("mqtt"), lambda: _tell_clients(unit))
+        unit = self._units[session.id] = _Unit(session, readers, plant, mqtt, ModbusMap(session, self._map_file))
         await unit.map.read()
         self._network.begin(session)
         unit.ignore = self._follow(unit)
@@ -142,6 +146,7 @@ class Communication:
             else:
                 await self._turn(unit, kind)
         plant.begin()
+        mqtt.begin()
 
     async def end(self, id: int) -> None:
         """A PLC is gone: closes its servers."""
@@ -154,6 +159,7 @@ class Communication:
             for running in unit.servers.values():
                 await _close(running)
             await unit.plant.end()
+            await unit.mqtt.end()
 
     async def close(self) -> None:
         """Closes all servers."""
@@ -168,7 +174,9 @@ class Communication:
         """As it is now."""
         unit = self._units[session.id]
         servers = tuple(_seen(kind, running) for kind, running in unit.servers.items())
-        return CommunicationSeen(servers, unit.readers.all, unit.plant.seen, unit.map.own, unit.map.trouble)
+        return CommunicationSeen(
+            servers, unit.readers.all, unit.plant.seen, unit.mqtt.seen, unit.map.own, unit.map.trouble
+        )
 
     async def set(self, session: Session, kind: ServerKind, wanted: ServerWanted, author: str) -> CommunicationSeen:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
@@ -199,9 +207,21 @@ class Communication:
         session.log.add(author, on if wanted.on else "values are exchanged with no plant", "system")
         return self.seen(session)
 
+    async def set_mqtt(self, session: Session, wanted: MqttWanted, author: str) -> CommunicationSeen:
+        """Switches publishing on or off, or gives it other settings; they are kept. `Refused`."""
+        unit = self._units[session.id]
+        wanted.check()
+        async with unit.turning:
+            await unit.mqtt.set(wanted)
+            await self._keep(unit)
+        on = f"{len(wanted.variables)} variables are published to the broker at {wanted.host}:{wanted.port}"
+        session.log.add(author, on if wanted.on else "nothing is published", "system")
+        return self.seen(session)
+
     async def _keep(self, unit: _Unit) -> None:
         kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
         kept["plant"] = asdict(unit.plant.wanted)
+        kept["mqtt"] = asdict(unit.mqtt.wanted)
         await asyncio.to_thread(self._store.instances.keep_communication, unit.session.id, kept)
 
     async def break_line(self, session: Session, kind: LineKind, fault: LineFault, author: str) -> CommunicationSeen:
@@ -317,7 +337,7 @@ def _told(kind: ServerKind, running: _Running) -> str:
 
 def _tell_clients(unit: _Unit) -> None:
     """Everybody at the PLC sees who is connected."""
-    desks = (*(running.desk for running in unit.servers.values()), unit.plant.desk)
+    desks = (*(running.desk for running in unit.servers.values()), unit.plant.desk, unit.mqtt.desk)
     names = (client.name for desk in desks if desk is not None for client in desk.clients)
     unit.session.tools = tuple(map(User, names))
     unit.session.tell(UsersChanged(unit.session.users))

@@ -11,7 +11,7 @@ from scanbench.wire.events import ErrorsChanged, Event, StateChanged
 from scanbench.wire.host import Sources
 from scanbench.wire.opcua import RaisedError
 from scanbench.wire.refused import Refused, Unavailable
-from scanbench.wire.variables import ReadVariables, VariablesAre
+from scanbench.wire.variables import DescribeVariables, ReadVariables, VariablesAre, VariablesDescribed
 
 
 class SessionPlc:
@@ -55,6 +55,13 @@ class SessionPlc:
 
         self._session.listen(hear)
         return lambda: self._session.ignore(hear)
+
+    async def describe(self, paths: tuple[str, ...]) -> VariablesDescribed:
+        """See `Plc`."""
+        try:
+            return await self._session.instance.ask(lambda ref: DescribeVariables(ref, paths), VariablesDescribed)
+        except (Unavailable, Refused) as error:
+            raise Away(str(error)) from error
 
     async def variables(self, paths: tuple[str, ...]) -> VariablesAre:
         """See `Plc`."""

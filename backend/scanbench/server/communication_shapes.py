@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 
 from scanbench.comm.desk import ClientSeen, FrameSeen
 from scanbench.comm.modbus.wires import PlantWanted
+from scanbench.comm.mqtt.settings import MqttWanted
 from scanbench.faults.line_faults import LineFault, ServerKind
 from scanbench.public import Public
 
@@ -76,6 +77,24 @@ class PlantSeen(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class MqttSeen(Public):
+    """What is published by MQTT."""
+
+    PUBLIC: ClassVar = "CommunicationMqtt"
+
+    settings: MqttWanted
+    connected: bool
+    trouble: str
+    """Why nothing is published although it is on, or which of the variables are not."""
+    published: int
+    """Messages, since it was switched on."""
+    per_second: float
+    """Messages, lately."""
+    frames: tuple[FrameSeen, ...]
+    """The last messages, the oldest first."""
+
+
+@dataclass(frozen=True, slots=True)
 class ErrorReader(Public):
     """A word of error memory that clients have read since their server was switched on."""
 
@@ -96,6 +115,7 @@ class CommunicationSeen(Public):
     """Those that the model can have."""
     error_readers: tuple[ErrorReader, ...]
     plant: PlantSeen
+    mqtt: MqttSeen
     own_map: bool
     """The project has a map of Modbus of its own: `modbus.csv`."""
     map_trouble: str

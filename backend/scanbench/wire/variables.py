@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from scanbench.wire.symbols import WatchItem
+
 
 @dataclass(frozen=True, slots=True)
 class ReadVariables:
@@ -31,3 +33,21 @@ class VariablesAre:
     """The values one after the other, as they lie in memory; a BOOL in a bit of a word is a byte 0 or 1, and what is not there takes no
     room."""
     message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DescribeVariables:
+    """What these paths mean in the program of the PLC that runs; answered with `VariablesDescribed`."""
+
+    ref: int
+    paths: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class VariablesDescribed:
+    """Answer to `DescribeVariables`: each path in its place."""
+
+    ref: int
+    version: int
+    """Of the program."""
+    items: tuple[WatchItem, ...]

@@ -102,10 +102,20 @@ function busy(server: FakeServer): void {
   };
   const fault = { kind: "none" as const, late_ms: 1000 };
   const plant = { settings, fault, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
+  const published = { on: false, host: "127.0.0.1", port: 1883, sparkplug: false, prefix: "scanbench", every_ms: 1000 };
+  const mqtt = {
+    settings: { ...published, variables: [] },
+    connected: false,
+    trouble: "",
+    published: 0,
+    per_second: 0,
+    frames: [],
+  };
   server.on("GET", "/instances/*/communication", () => ({
     servers: [],
     error_readers: [],
     plant,
+    mqtt,
     own_map: false,
     map_trouble: "",
   }));

@@ -426,6 +426,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/communication/mqtt": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Switches the publishing of variables by MQTT or Sparkplug B on or off, or says which of them go where
+         * @description Switches the publishing of variables by MQTT or Sparkplug B on or off, or says which of them go where. It is kept: it is on
+         *     again when Scanbench starts again.
+         */
+        put: operations["save_instance_communication_mqtt"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/communication/plant": {
         parameters: {
             query?: never;
@@ -4032,6 +4053,7 @@ export interface components {
              * @description Why that cannot be used; no register means anything then.
              */
             map_trouble: string;
+            mqtt: components["schemas"]["CommunicationMqtt"];
             /**
              * Own Map
              * @description The project has a map of Modbus of its own: `modbus.csv`.
@@ -4117,6 +4139,35 @@ export interface components {
              * @description Decoded: `memory area read D100, 3`.
              */
             text: string;
+        };
+        /**
+         * CommunicationMqtt
+         * @description What is published by MQTT.
+         */
+        CommunicationMqtt: {
+            /** Connected */
+            connected: boolean;
+            /**
+             * Frames
+             * @description The last messages, the oldest first.
+             */
+            frames: components["schemas"]["CommunicationFrame"][];
+            /**
+             * Per Second
+             * @description Messages, lately.
+             */
+            per_second: number;
+            /**
+             * Published
+             * @description Messages, since it was switched on.
+             */
+            published: number;
+            settings: components["schemas"]["MqttSettings"];
+            /**
+             * Trouble
+             * @description Why nothing is published although it is on, or which of the variables are not.
+             */
+            trouble: string;
         };
         /**
          * CommunicationPlant
@@ -6468,6 +6519,52 @@ export interface components {
              * @description how many of them were looked up on a page
              */
             verified_facts: number;
+        };
+        /**
+         * MqttSettings
+         * @description Variables that are published, and the broker that gets them.
+         */
+        MqttSettings: {
+            /**
+             * Every Ms
+             * @description How often variables are read; those that changed are published.
+             * @default 1000
+             */
+            every_ms: number;
+            /**
+             * Host
+             * @description Where the broker is: an address, or the name of a machine.
+             * @default 127.0.0.1
+             */
+            host: string;
+            /**
+             * On
+             * @default false
+             */
+            on: boolean;
+            /**
+             * Port
+             * @default 1883
+             */
+            port: number;
+            /**
+             * Prefix
+             * @description Topics begin with it; of Sparkplug B it is the group.
+             * @default scanbench
+             */
+            prefix: string;
+            /**
+             * Sparkplug
+             * @description As an edge node of Sparkplug B; else each variable is a topic with JSON.
+             * @default false
+             */
+            sparkplug: boolean;
+            /**
+             * Variables
+             * @description Paths and addresses: `Main.level`, `D100`.
+             * @default []
+             */
+            variables: string[];
         };
         /**
          * NewCampaign
@@ -11484,6 +11581,41 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    save_instance_communication_mqtt: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MqttSettings"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Communication"];
+                };
             };
         };
     };

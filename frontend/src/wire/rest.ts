@@ -30,6 +30,7 @@ import type {
   ModbusRange,
   ModelInfo,
   ModelSummary,
+  MqttSettings,
   NewSweep,
   PlantSettings,
   PlcSymbol,
@@ -342,6 +343,8 @@ export const rest = {
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}`, wanted),
   setPlant: (instance: number, wanted: PlantSettings) =>
     json<Communication>("PUT", `/instances/${instance}/communication/plant`, wanted),
+  setMqtt: (instance: number, wanted: MqttSettings) =>
+    json<Communication>("PUT", `/instances/${instance}/communication/mqtt`, wanted),
   breakLine: (instance: number, kind: LineKind, fault: CommunicationFault) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}/fault`, fault),
   modbusMap: (instance: number) => json<ModbusRange[]>("GET", `/instances/${instance}/communication/modbus/map`),

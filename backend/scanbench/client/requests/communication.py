@@ -28,3 +28,9 @@ class Communication(Asks):
         """Exchanges values with a plant that is a server of Modbus TCP: `host`, `port`, `unit`, `every_ms`, `lost`, `answers` and
         `ranges`; ends that with `on=False`."""
         return self._send(shapes.Communication, "PUT", "communication/plant", {"on": True, **wanted})
+
+    @asked
+    def publish_by_mqtt(self, **wanted: Unpack[shapes.MqttSettings]) -> Steps[shapes.Communication]:
+        """Publishes variables to a broker: `host`, `port`, `sparkplug`, `prefix`, `every_ms` and `variables`; ends that with
+        `on=False`."""
+        return self._send(shapes.Communication, "PUT", "communication/mqtt", {"on": True, **wanted})

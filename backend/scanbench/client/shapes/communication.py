@@ -133,6 +133,38 @@ class CommunicationPlant(TypedDict):
     """The last ones, the oldest first."""
 
 
+class MqttSettings(TypedDict):
+    """Variables that are published, and the broker that gets them."""
+
+    on: NotRequired[bool]
+    host: NotRequired[str]
+    """Where the broker is: an address, or the name of a machine."""
+    port: NotRequired[int]
+    sparkplug: NotRequired[bool]
+    """As an edge node of Sparkplug B; else each variable is a topic with JSON."""
+    prefix: NotRequired[str]
+    """Topics begin with it; of Sparkplug B it is the group."""
+    every_ms: NotRequired[int]
+    """How often variables are read; those that changed are published."""
+    variables: NotRequired[list[str]]
+    """Paths and addresses: `Main.level`, `D100`."""
+
+
+class CommunicationMqtt(TypedDict):
+    """What is published by MQTT."""
+
+    settings: MqttSettings
+    connected: bool
+    trouble: str
+    """Why nothing is published although it is on, or which of the variables are not."""
+    published: int
+    """Messages, since it was switched on."""
+    per_second: float
+    """Messages, lately."""
+    frames: list[CommunicationFrame]
+    """The last messages, the oldest first."""
+
+
 class Communication(TypedDict):
     """The communication unit of a PLC."""
 
@@ -140,6 +172,7 @@ class Communication(TypedDict):
     """Those that the model can have."""
     error_readers: list[ErrorMemoryReader]
     plant: CommunicationPlant
+    mqtt: CommunicationMqtt
     own_map: bool
     """The project has a map of Modbus of its own: `modbus.csv`."""
     map_trouble: str

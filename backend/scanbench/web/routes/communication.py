@@ -5,6 +5,7 @@ from fastapi.responses import Response
 
 from scanbench.comm.modbus.mapping import Mapped, as_csv
 from scanbench.comm.modbus.wires import PlantWanted
+from scanbench.comm.mqtt.settings import MqttWanted
 from scanbench.faults.line_faults import LineFault, LineKind, ServerKind
 from scanbench.server.communication_shapes import CommunicationSeen, ServerWanted
 from scanbench.web.auth import user_of
@@ -25,6 +26,13 @@ async def on_set_plant(bench: Bench, request: Request, instance: Id, wanted: Pla
     """Switches the exchange of values with a plant on or off, which is a server of Modbus TCP (Factory I/O and the like), or says what
     is wired to what. It is kept: it is on again when Scanbench starts again."""
     return await bench.communication.set_plant(bench.session(instance), wanted, user_of(request).name)
+
+
+@router.put("/mqtt")
+async def on_set_mqtt(bench: Bench, request: Request, instance: Id, wanted: MqttWanted) -> CommunicationSeen:
+    """Switches the publishing of variables by MQTT or Sparkplug B on or off, or says which of them go where. It is kept: it is on
+    again when Scanbench starts again."""
+    return await bench.communication.set_mqtt(bench.session(instance), wanted, user_of(request).name)
 
 
 @router.put("/{kind}")

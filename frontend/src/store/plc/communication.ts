@@ -9,6 +9,7 @@ import type {
   CommunicationServerSettings,
   LineKind,
   ModbusRange,
+  MqttSettings,
   PlantSettings,
   ServerKind,
 } from "../../wire/types";
@@ -21,7 +22,7 @@ interface State {
   /** Why it could not be asked. */
   trouble: string | null;
   /** The last change, where it was refused. */
-  refused: { kind: LineKind; message: string } | null;
+  refused: { kind: LineKind | "mqtt"; message: string } | null;
   /** Null until somebody asked for it. */
   map: readonly ModbusRange[] | null;
 }
@@ -65,11 +66,18 @@ export const changePlant = (wanted: Partial<PlantSettings>) =>
     return rest.setPlant(instance, { ...settings, ...wanted });
   });
 
+export const changeMqtt = (wanted: Partial<MqttSettings>) =>
+  inTurn("mqtt", (instance) => {
+    const settings = useCommunication.getState().seen?.mqtt.settings;
+    if (!settings) throw new Error("mqtt"); // nobody sees what could be changed
+    return rest.setMqtt(instance, { ...settings, ...wanted });
+  });
+
 export const breakLine = (kind: LineKind, fault: CommunicationFault) =>
   inTurn(kind, (instance) => rest.breakLine(instance, kind, fault));
 
 /** One change after the other. A refusal stays until the next change. */
-function inTurn(kind: LineKind, change: (instance: number) => Promise<Communication>): void {
+function inTurn(kind: LineKind | "mqtt", change: (instance: number) => Promise<Communication>): void {
   const { instance } = useBench.getState();
   if (instance === null) return;
   changes = changes.then(async () => {

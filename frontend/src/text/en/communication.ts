@@ -65,6 +65,18 @@ export const communication = {
   "communication.open": "Show the communication unit",
   "communication.outcome": "Outcome",
   "communication.persecond": "Requests a second: {count}",
+  "communication.mqtt": "MQTT and Sparkplug B",
+  "communication.mqtt.about":
+    "Publishes chosen variables to a broker: those that changed, all of one scan. Nobody can write by it.",
+  "communication.mqtt.form": "As",
+  "communication.mqtt.group": "Group",
+  "communication.mqtt.host": "Address of the broker",
+  "communication.mqtt.json": "topics with JSON",
+  "communication.mqtt.lost": "not connected",
+  "communication.mqtt.now": "{count} messages",
+  "communication.mqtt.prefix": "Topics begin with",
+  "communication.mqtt.sparkplug": "Sparkplug B",
+  "communication.mqtt.variables": "Variables and addresses, one a line",
   "communication.plant": "Plant (Modbus TCP client)",
   "communication.plant.about":
     "A plant model that is a server of Modbus TCP, such as a scene of Factory I/O, drives inputs of this PLC and gets its outputs. Its values are in the run, which replays without it.",

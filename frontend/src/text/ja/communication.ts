@@ -66,6 +66,18 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.open": "通信ユニットを表示",
   "communication.outcome": "結果",
   "communication.persecond": "毎秒の要求: {count}",
+  "communication.mqtt": "MQTT と Sparkplug B",
+  "communication.mqtt.about":
+    "選んだ変数をブローカーへ送ります。変化した値だけを、同じスキャンの値として送ります。書き込みはできません。",
+  "communication.mqtt.form": "形式",
+  "communication.mqtt.group": "グループ",
+  "communication.mqtt.host": "ブローカーのアドレス",
+  "communication.mqtt.json": "トピックごとの JSON",
+  "communication.mqtt.lost": "未接続",
+  "communication.mqtt.now": "{count} 件のメッセージ",
+  "communication.mqtt.prefix": "トピックの先頭",
+  "communication.mqtt.sparkplug": "Sparkplug B",
+  "communication.mqtt.variables": "変数とアドレス（1 行に 1 つ）",
   "communication.plant": "設備（Modbus TCP クライアント）",
   "communication.plant.about":
     "Modbus TCP サーバである設備モデル（Factory I/O のシーンなど）が、この PLC の入力を動かし、出力を受け取ります。値は実行記録に残り、設備がなくても再現できます。",

@@ -7,6 +7,7 @@ import { Icon } from "../../../ui/Icon";
 import type { Communication } from "../../../wire/types";
 import "./communication.css";
 import { ModbusMap } from "./ModbusMap";
+import { Mqtt } from "./Mqtt";
 import { Plant } from "./Plant";
 import { Server } from "./Server";
 
@@ -44,6 +45,7 @@ export function CommunicationPage() {
             <Server key={server.kind} server={server} />
           ))}
           <Plant plant={seen.plant} />
+          <Mqtt mqtt={seen.mqtt} />
           <ErrorReaders readers={seen.error_readers} />
           <ModbusMap own={seen.own_map} trouble={seen.map_trouble} />
         </div>
