@@ -47,15 +47,30 @@ test('clients that somebody else wrote see an error that was raised here, and wh
     await expect(pane.getByRole('table', { name: 'Who reads the error memory' })).toContainText('A400');
   });
 
-  await test.step('an HMI by Modbus sees the same, and that it is recovered', async () => {
+  await test.step('an HMI by Modbus writes, is refused on the error memory, and sees an error and that it is recovered', async () => {
+    const map =
+      'group,first,last,from\nholding register,0,9,D20010\nholding register,100,100,A400\ninput register,0,2,A400\n';
+    await server.put(`/projects/${server.project}/files/modbus.csv`, { text: map, version: 0 });
     const section = pane.getByRole('region', { name: 'Modbus TCP', exact: true });
+    await section.getByRole('radio', { name: 'read and write' }).click();
+    await section.getByRole('button', { name: 'Apply' }).click();
     await section.getByRole('switch', { name: 'Modbus TCP' }).click();
     await expect(section).toContainText('No client is connected.');
     const socket = new net.Socket();
     const hmi = new modbus.TCP(socket, 1);
     const { host, port } = hostAndPort((await section.locator('.comaddress b').textContent()) ?? '');
     await new Promise<void>((connected) => socket.connect({ host, port }, connected));
-    const code = async () => (await hmi.readInputRegisters(400, 1)).response.body.values[0];
+    await hmi.writeMultipleRegisters(0, [11, 12]);
+    expect(await client.words('D20010', 2)).toEqual([11, 12]);
+    expect((await hmi.readHoldingRegisters(1, 1)).response.body.values[0]).toBe(12);
+    await expect(page.locator('[data-pane=log]')).toContainText('D20010 to D20011 written, 2 words');
+    const refused = await hmi.writeSingleRegister(100, 0).then(
+      () => 'done',
+      (error: { err: string }) => error.err,
+    );
+    expect(refused).toBe('ModbusException');
+    await expect(section).toContainText('02 an address means nothing, or cannot be written');
+    const code = async () => (await hmi.readInputRegisters(0, 1)).response.body.values[0];
     await expect.poll(code).toBe(0xf7);
     await server.post(`/instances/${server.instance}/errors/recover`, { ids: ['battery-error'] });
     await expect.poll(code).toBe(0);
