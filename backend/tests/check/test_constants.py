@@ -61,3 +61,10 @@ def test_a_chain_of_constants_is_as_long_as_is_said(many: int, codes: list[str])
     text = f"VAR_GLOBAL CONSTANT {chain} c{many} : INT := 1; END_VAR\n"
     found = check_sources({"a.st": text + MAIN}, MODELS["GENERIC-IEC"]).problems
     assert [each.code for each in found] == codes
+
+
+def test_a_local_constant_is_not_known_to_the_blocks_that_variables_use() -> None:
+    block = "FUNCTION_BLOCK F\nVAR list : ARRAY[1..K] OF INT; END_VAR\nEND_FUNCTION_BLOCK\n"
+    assert messages(MAIN.replace("a : INT;", "f : F; END_VAR VAR CONSTANT K : INT := 2;"), block) == [
+        "`K` is not declared."
+    ]

@@ -6,12 +6,13 @@ from dataclasses import replace
 from scanbench.check.body.allowed import allowed
 from scanbench.check.body.arguments import by_formal, in_out, together
 from scanbench.check.body.context import Body
+from scanbench.check.body.il_operands import hidden
 from scanbench.check.body.objects import named_itself
-from scanbench.check.body.receivers import Receiver, method_called
+from scanbench.check.body.receivers import Receiver, method_called, receiver_of
 from scanbench.check.body.references import reference_type
 from scanbench.check.declare.classes import Method
 from scanbench.check.dialect import Allowance
-from scanbench.program.program import Assign, Base, RefOf, Stmt
+from scanbench.program.program import Assign, Base, Const, RefOf, Stmt
 from scanbench.program.shown import shown
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
@@ -37,6 +38,10 @@ def action_call(body: Body, node: tree.Call, block: Block) -> Stmt | None:
             f"`{action.name}` is an ACTION, which has no arguments. Write {instead}",
             node.arguments[0].span,
         )
+    first, callee = _bound(body, receiver, node.callee)
+    if first:
+        receiver = receiver_of(body, callee.owner) if isinstance(callee, tree.MemberOf) else None
+        assert receiver is not None
     given = [each for each in record.members.values() if each.given in (Section.INPUT, Section.OUTPUT, Section.IN_OUT)]
     before: list[tree.Statement] = []
     after: list[tree.Statement] = []
@@ -47,15 +52,15 @@ def action_call(body: Body, node: tree.Call, block: Block) -> Stmt | None:
         if record.members[key].section is Section.IN_OUT:
             connected += _connected(body, receiver, record, record.members[key], argument, argument.value)
             continue
-        inside = _inside(node.callee, record.members[key].name, argument)
+        inside = _inside(callee, record.members[key].name, argument)
         if argument.output:
             value = tree.UnaryOp("not", inside, argument.span) if argument.negated else inside
             after.append(tree.Assignment(argument.value, value, argument.span))
         else:
             before.append(tree.Assignment(inside, argument.value, argument.span))
-    call = tree.ExpressionStatement(tree.Call(node.callee, (), node.span), node.span)
+    call = tree.ExpressionStatement(tree.Call(callee, (), node.span), node.span)
     inputs = block(body, tuple(before)) if before else ()
-    return together([*inputs, *connected, *block(body, (call, *after))], node.span)
+    return together([*first, *inputs, *connected, *block(body, (call, *after))], node.span)
 
 
 def _action(body: Body, node: tree.Call) -> tuple[Receiver, Method] | None:
@@ -68,6 +73,27 @@ def _action(body: Body, node: tree.Call) -> tuple[Receiver, Method] | None:
     found = method_called(body, named)
     body.report.undo(mark)
     return found if found is not None and ACTION in found[1].declaration.modifiers else None
+
+
+def _bound(body: Body, receiver: Receiver, callee: tree.Expression) -> tuple[list[Stmt], tree.Expression]:
+    """What keeps the instance while it is called, and the callee by that: an argument may change the index or pointer that says which
+    instance it is. Nothing, and the callee as it is, where there is none."""
+    place = receiver.place
+    fixed = place.reference is None and all(isinstance(each.value, Const) for each in place.indices)
+    if fixed or not isinstance(callee, tree.MemberOf) or named_itself(callee.owner, "SUPER"):
+        return [], callee
+    if place.base is Base.FRAME and place.slot is None and place.reference is None:
+        raise body.report.reject(
+            "T010",
+            f"`{shown(callee.owner)}` is a temporary with an index, and its ACTION is called with arguments. Assign the inputs, then "
+            "call the ACTION without arguments.",
+            callee.span,
+        )
+    method_called(body, callee)  # for what uses it
+    type = reference_type(place.type, pointer=True)
+    kept = tree.Name(hidden(body, "$called", type, callee.span).name, callee.span)
+    by = tree.MemberOf(tree.Dereference(kept, callee.span), callee.name, callee.span)
+    return [Assign(body.place(kept)[0], RefOf(place, type), callee.span)], by
 
 
 def _inside(callee: tree.Expression, name: str, argument: tree.Argument) -> tree.Expression:

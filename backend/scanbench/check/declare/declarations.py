@@ -192,7 +192,8 @@ class Declarations:
             )
         self._open.append(key)
         try:
-            with self.names.within(Space(origin.namespace, origin.using)):
+            # what it names is looked up where it is declared, not from the variable that needs it
+            with self.later.under(()), self.names.within(Space(origin.namespace, origin.using)):
                 made = self._made(self, origin)
         finally:
             self._open.pop()
