@@ -95,8 +95,8 @@ async def _run(client: PlantClient, name: str) -> None:
     try:
         await client.run()
     except Exception:
-        client.trouble = "values are not exchanged any more: see the log of the server"
         log.exception("%s: values could not be exchanged", name)
+        await client.lost("values are not exchanged any more: see the log of the server")
 
 
 def _read(kept: object) -> PlantWanted:

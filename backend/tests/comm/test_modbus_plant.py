@@ -1,20 +1,24 @@
 """Wires to a plant, and Modbus as a client: what it asks is what our server understands."""
 
 import asyncio
-from asyncio import StreamWriter
+from asyncio import StreamReader, StreamWriter
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import replace
 from unittest.mock import MagicMock
 
 import pytest
 
+from scanbench.comm.desk import Desk
+from scanbench.comm.door import Away, Read
 from scanbench.comm.modbus import ask
 from scanbench.comm.modbus.frame import Code, Request, Stream, failure
 from scanbench.comm.modbus.functions import Target, respond
 from scanbench.comm.modbus.mapping import default
-from scanbench.comm.modbus.plant import PATIENCE_S, Line
+from scanbench.comm.modbus.plant import PATIENCE_S, Line, PlantClient
 from scanbench.comm.modbus.wires import PlantRange, PlantWanted, answers_bit, cleared, wires
 from scanbench.runtime.write_areas import WriteAreas
+from scanbench.wire.memory import AreaSpan
 from scanbench.wire.refused import Refused
 from tests.comm.bench import LocalDoor, machine
 
@@ -140,3 +144,47 @@ def test_an_exchange_ends_when_it_is_cancelled_just_as_the_answer_comes(turns: i
         return bool(done)
 
     assert asyncio.run(cancelled())
+
+
+class Leaving(LocalDoor):
+    """Of a PLC whose process is gone between two halves of an exchange."""
+
+    def __init__(self) -> None:
+        super().__init__(machine())
+        self.reads, self.back = 0, asyncio.Event()
+
+    async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
+        self.reads += 1
+        if self.reads == 2:
+            raise Away("the PLC is starting")
+        if self.reads == 3:
+            self.back.set()
+        return await super().read(spans, also)
+
+
+def test_values_are_exchanged_again_when_the_plc_is_back() -> None:
+    async def run() -> None:
+        plant, door = LocalDoor(machine()), Leaving()
+
+        async def serve(reader: StreamReader, writer: StreamWriter) -> None:
+            stream = Stream()
+            while data := await reader.read(4096):
+                for request, _ in stream.feed(data):
+                    answered, _ = await respond(request, Target(plant, default(plant.model)), False)
+                    writer.write(answered)
+            writer.close()
+
+        async with await asyncio.start_server(serve, "127.0.0.1") as server:
+            ranges = (PlantRange("input register", 0, 1, "D1"), PlantRange("holding register", 1, 1, "D2", "plant"))
+            wanted = PlantWanted(on=True, port=server.sockets[0].getsockname()[1], every_ms=10, ranges=ranges)
+            client = PlantClient(door, wanted, Desk(lambda _: door, lambda: None, False), lambda _: None)
+            task = asyncio.create_task(client.run())
+            try:
+                async with asyncio.timeout(PATIENCE_S):
+                    await door.back.wait()
+                assert client.answers
+            finally:
+                task.cancel()
+                await asyncio.wait([task])
+
+    asyncio.run(run())

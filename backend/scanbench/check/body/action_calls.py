@@ -38,10 +38,7 @@ def action_call(body: Body, node: tree.Call, block: Block) -> Stmt | None:
             f"`{action.name}` is an ACTION, which has no arguments. Write {instead}",
             node.arguments[0].span,
         )
-    first, callee = _bound(body, receiver, node.callee)
-    if first:
-        receiver = receiver_of(body, callee.owner) if isinstance(callee, tree.MemberOf) else None
-        assert receiver is not None
+    first, callee, receiver = _bound(body, receiver, node.callee)
     given = [each for each in record.members.values() if each.given in (Section.INPUT, Section.OUTPUT, Section.IN_OUT)]
     before: list[tree.Statement] = []
     after: list[tree.Statement] = []
@@ -75,13 +72,13 @@ def _action(body: Body, node: tree.Call) -> tuple[Receiver, Method] | None:
     return found if found is not None and ACTION in found[1].declaration.modifiers else None
 
 
-def _bound(body: Body, receiver: Receiver, callee: tree.Expression) -> tuple[list[Stmt], tree.Expression]:
+def _bound(body: Body, receiver: Receiver, callee: tree.Expression) -> tuple[list[Stmt], tree.Expression, Receiver]:
     """What keeps the instance while it is called, and the callee by that: an argument may change the index or pointer that says which
     instance it is. Nothing, and the callee as it is, where there is none."""
     place = receiver.place
     fixed = place.reference is None and all(isinstance(each.value, Const) for each in place.indices)
     if fixed or not isinstance(callee, tree.MemberOf) or named_itself(callee.owner, "SUPER"):
-        return [], callee
+        return [], callee, receiver
     if place.base is Base.FRAME and place.slot is None and place.reference is None:
         raise body.report.reject(
             "T010",
@@ -92,8 +89,11 @@ def _bound(body: Body, receiver: Receiver, callee: tree.Expression) -> tuple[lis
     method_called(body, callee)  # for what uses it
     type = reference_type(place.type, pointer=True)
     kept = tree.Name(hidden(body, "$called", type, callee.span).name, callee.span)
-    by = tree.MemberOf(tree.Dereference(kept, callee.span), callee.name, callee.span)
-    return [Assign(body.place(kept)[0], RefOf(place, type), callee.span)], by
+    instance = tree.Dereference(kept, callee.span)
+    by = receiver_of(body, instance)
+    assert by is not None
+    store = Assign(body.place(kept)[0], RefOf(place, type), callee.span)
+    return [store], tree.MemberOf(instance, callee.name, callee.span), by
 
 
 def _inside(callee: tree.Expression, name: str, argument: tree.Argument) -> tree.Expression:

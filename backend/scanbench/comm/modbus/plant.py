@@ -73,7 +73,7 @@ class PlantClient:
             try:
                 await self._talk()
             except NOT_THERE as error:
-                await self._lost(_why(error))
+                await self.lost(_why(error))
             await asyncio.sleep(AGAIN_S)
 
     async def _talk(self) -> None:
@@ -101,7 +101,11 @@ class PlantClient:
         if not await self._enter(writes):
             return
         if self._outputs:
-            values = await self._door.read([each.span for each in self._outputs])
+            try:
+                values = await self._door.read([each.span for each in self._outputs])
+            except Away as away:
+                self.trouble = str(away)
+                return
             for each, data in zip(self._outputs, values.data, strict=True):
                 await self._write(line, each, each.values(data))
         self.exchanges += 1
@@ -124,8 +128,8 @@ class PlantClient:
         self.trouble = "" if done.ok else done.message
         return done.ok
 
-    async def _lost(self, why: str) -> None:
-        """What the PLC gets to know of it."""
+    async def lost(self, why: str) -> None:
+        """There is no exchange now: what the PLC gets to know of it."""
         if self.answers:
             self._tell(f"the plant at {self._wanted.host}:{self._wanted.port} does not answer: {why}")
         self.answers = False
