@@ -52,7 +52,7 @@ def verify(
     scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
     trace: Path | None = typer.Option(None, metavar="FILE", help="Log of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
     map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the log are (JSON); else they are taken by their names."),
-    controller: str | None = typer.Option(None, metavar="ADDRESS", help="A controller that runs, instead of a run: opc.tcp://HOST:4840 (OPC UA) or fins://HOST:9600 (FINS, UDP). It is only read."),
+    controller: str | None = typer.Option(None, metavar="ADDRESS", help="A controller that runs, instead of a run: opc.tcp://HOST:4840 (OPC UA), fins://HOST:9600 (FINS, UDP) or fins+tcp://HOST:9600. It is only read."),
     node: list[str] = typer.Option([], metavar="NODE", help="Of a controller: what is read; else all that it shows, by FINS the variables of the program at addresses."),
     samples: int = typer.Option(SAMPLES, min=2, help="Of a controller: so often it is read."),
     every: int = typer.Option(INTERVAL_MS, metavar="MS", help="Of a controller: from one sample to the next."),

@@ -154,7 +154,7 @@ class TraceFiles:
 
     async def _wanted(self, connection: Connection, sources: Sources | None) -> Connection:
         """With what is read of it where nobody said so; `Unreachable`."""
-        if connection.protocol != "fins" or sources is None:
+        if not connection.by_fins or sources is None:
             return connection
         try:
             return for_program(connection, await asyncio.to_thread(self._program, sources))

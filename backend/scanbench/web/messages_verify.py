@@ -193,7 +193,9 @@ class NewController(Wire):
     """A controller that runs elsewhere, to be read as the control device. Nothing is written to it."""
 
     address: str = Field(
-        min_length=1, max_length=500, description="opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT (UDP)"
+        min_length=1,
+        max_length=500,
+        description="opc.tcp://HOST:PORT of an OPC UA server, fins://HOST:PORT (UDP) or fins+tcp://HOST:PORT",
     )
     interval_ms: int = Field(default=100, ge=10, le=60_000, description="from one sample to the next")
     nodes: list[Annotated[str, Field(min_length=1, max_length=500)]] = Field(

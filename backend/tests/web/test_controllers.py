@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from asyncua import Server as UaServer
 from asyncua import ua
+from lxml import etree
 
 from scanbench.client import Plc, Refused, connect
 from scanbench.client.shapes.verification import VerificationInfo
@@ -210,6 +211,46 @@ def test_what_cannot_be_read_is_said_before_anything_begins(server: Server, plc:
         plc.connect_controller(address)
 
 
+def verified(folder: Path) -> tuple[str, ...]:
+    """The command up to the address, for the right program."""
+    (folder / "Main.st").write_text(RIGHT)
+    return ("verify", str(folder / "Main.st"), "--model", MODEL, "--every", "50", "--controller")
+
+
+def test_the_command_reads_a_second_plc_by_opc_ua(server: Server, tmp_path: Path) -> None:
+    name = f"controller {next(_NUMBERS)}"
+    address = switch_on(server, server.instance(name, MODEL, Main=WRONG))
+    controller = connect(server.address, user="Ann").plc(name)
+    controller.write("Main.level", 31)
+    given = (*verified(tmp_path), address, "--samples", "20")
+    right = scanbench(*given, "--json")
+    assert right.returncode == 0, right
+    told = json.loads(right.stdout)
+    assert (told["same"], told["compared"] > 15, told["trace"]) == (True, True, address)
+    assert {"Main.twice", "Main.high", "Main.part", "Main.n"} <= {
+        each["variable"] for each in told["coverage"]["outputs"]
+    }
+    controller.write("Main.level", 250)
+    wrong = scanbench(*given, "--junit", str(tmp_path / "report.xml"))
+    assert wrong.returncode == 1, wrong
+    assert "Main.twice is 501, the reference gives 500" in wrong.stdout
+    cases = etree.parse(tmp_path / "report.xml").findall(".//testcase")
+    failed = {str(each.get("name")) for each in cases if each.find("failure") is not None}
+    assert (failed - {"the whole scan: no difference"}, len(cases) > 4) == ({"output Main.twice"}, True)
+    nobody = scanbench(*given[:-3], "opc.tcp://127.0.0.1:1", "--samples", "2")
+    assert (nobody.returncode, "opc.tcp://127.0.0.1:1" in nobody.stderr) == (2, True), nobody
+
+
+def test_the_command_reads_a_foreign_controller_by_opc_ua(foreign: Foreign, tmp_path: Path) -> None:
+    given = (*verified(tmp_path), foreign.start(**GOOD), "--samples", "20")
+    right = scanbench(*given)
+    assert right.returncode == 0, right
+    foreign.write("twice", 81, SHORT)
+    wrong = scanbench(*given)
+    assert wrong.returncode == 1, wrong
+    assert "Main.twice is 81, the reference gives 80" in wrong.stdout
+
+
 def test_a_controller_is_read_by_fins_at_the_addresses_of_the_program(server: Server, plc: Plc, tmp_path: Path) -> None:
     name = f"controller {next(_NUMBERS)}"
     port = switch_on_fins(server, server.instance(name, MODEL, Main=WRONG), "fins", "read")
@@ -227,17 +268,7 @@ def test_a_controller_is_read_by_fins_at_the_addresses_of_the_program(server: Se
     assert bad["first_difference"] is not None
     assert bad["first_difference"]["message"].startswith("Main.twice is 501, the reference gives 500")
     plc.delete_verification(number)
-    (tmp_path / "Main.st").write_text(RIGHT)
-    given = (
-        "verify",
-        str(tmp_path / "Main.st"),
-        "--model",
-        MODEL,
-        "--every",
-        "50",
-        "--controller",
-        f"fins://127.0.0.1:{port}",
-    )
+    given = (*verified(tmp_path), f"fins://127.0.0.1:{port}")
     wrong = scanbench(*given, "--samples", "20")
     assert wrong.returncode == 1, wrong
     assert "Main.twice is 501, the reference gives 500" in wrong.stdout
@@ -246,8 +277,15 @@ def test_a_controller_is_read_by_fins_at_the_addresses_of_the_program(server: Se
     assert right.returncode == 0, right
     told = json.loads(right.stdout)
     assert (told["same"], told["compared"] > 15, told["trace"]) == (True, True, f"fins://127.0.0.1:{port}")
-    nobody = scanbench(*given[:-1], "fins://127.0.0.1:1", "--samples", "2")
-    assert (nobody.returncode, "fins://127.0.0.1:1 cannot be reached" in nobody.stderr) == (2, True), nobody
+    tcp = (*given[:-1], f"fins+tcp://127.0.0.1:{port}", "--samples", "20")
+    over = scanbench(*tcp, "--json")
+    assert over.returncode == 0, over
+    assert json.loads(over.stdout)["compared"] > 15
+    controller.write("Main.level", 250)
+    assert "Main.twice is 501, the reference gives 500" in scanbench(*tcp).stdout
+    for nowhere in ("fins://127.0.0.1:1", "fins+tcp://127.0.0.1:1"):
+        nobody = scanbench(*given[:-1], nowhere, "--samples", "2")
+        assert (nobody.returncode, f"{nowhere} cannot be reached" in nobody.stderr) == (2, True), nobody
     for nodes, why in (
         (["D100:TEXT"], "`D100:TEXT` is nothing that is read by FINS"),
         (["D99999"], "FINS has no word 99,999"),

@@ -9,7 +9,7 @@ FASTEST_MS, SLOWEST_MS = 10, 60_000
 """Bounds of the time from one sample to the next."""
 MOST = 999
 """Variables that are read: as many as a log has columns, with that of the time."""
-PROTOCOLS = ("opc.tcp", "fins")
+PROTOCOLS = ("opc.tcp", "fins", "fins+tcp")
 
 
 class Unreachable(Exception):
@@ -25,7 +25,7 @@ class Connection:
     """A controller, and what is wanted of it."""
 
     address: str
-    """opc.tcp://HOST:PORT/..., or fins://HOST:PORT (UDP)"""
+    """opc.tcp://HOST:PORT/..., fins://HOST:PORT (UDP), or fins+tcp://HOST:PORT"""
     interval_ms: int = 100
     """From one sample to the next."""
     nodes: tuple[str, ...] = ()
@@ -44,10 +44,15 @@ class Connection:
             host = None
         if not separator or protocol.lower() not in PROTOCOLS or not host:
             raise Unreachable(
-                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA) or fins://HOST:9600 (FINS)",
+                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA), fins://HOST:9600 (FINS by UDP) or fins+tcp://HOST:9600",
                 for_good=True,
             )
         return protocol.lower()
+
+    @property
+    def by_fins(self) -> bool:
+        """Whether it tells no names. `Unreachable`."""
+        return self.protocol.startswith("fins")
 
 
 @dataclass(frozen=True, slots=True)

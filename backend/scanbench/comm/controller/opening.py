@@ -12,7 +12,7 @@ from scanbench.program.program import Program
 
 async def open_source(connection: Connection) -> Source:
     """Connects; `Unreachable`."""
-    if connection.protocol == "fins":
+    if connection.by_fins:
         return await open_fins(connection)
     # not with the server, which would start a third of a second later, and beside the loop
     reading = await asyncio.to_thread(import_module, "scanbench.comm.opcua.reading")
@@ -22,6 +22,6 @@ async def open_source(connection: Connection) -> Source:
 
 def for_program(connection: Connection, program: Program) -> Connection:
     """By FINS a controller says nothing of what it has: where nobody named anything, the variables of the program at addresses are read."""
-    if connection.protocol != "fins" or connection.nodes:
+    if not connection.by_fins or connection.nodes:
         return connection
     return replace(connection, nodes=located(program))

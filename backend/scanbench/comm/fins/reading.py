@@ -1,8 +1,7 @@
-"""A controller by FINS over UDP: words of its memory, again and again. What it is asked is 0104, multiple memory area read, and never a write."""
+"""A controller by FINS over UDP or TCP: words of its memory, again and again. What it is asked is 0104, multiple memory area read, and never a write."""
 
 import asyncio
 import re
-import socket
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,12 +9,12 @@ from urllib.parse import urlsplit
 
 from scanbench.comm.controller.contract import MOST, Connection, Found, Unreachable
 from scanbench.comm.fins.areas import word_code
-from scanbench.comm.fins.ask import Address, Answer, BadAnswer, answer_to, read_places, request, words_of_places
+from scanbench.comm.fins.ask import Answer, BadAnswer, answer_to, read_places, request, words_of_places
+from scanbench.comm.fins.line import Line, open_line
 
 PORT = 9600
 ANSWER_S = 2.0
-"""So long it may take to answer, each of so many times: a datagram may be lost."""
-_TRIES = 3
+"""So long it may take to answer, each time that it is asked."""
 _READ_PLACES = 0x0104
 _AT_ONCE = 160
 """Words in one request: an answer of 3 bytes each fits into the frame of every network."""
@@ -56,23 +55,25 @@ async def open_fins(connection: Connection) -> "FinsSource":
         raise Unreachable(
             "FINS tells no names: say what is read, as D100, D101:INT, CIO 100.03, level=D102:REAL", for_good=True
         )
-    loop = asyncio.get_running_loop()
     try:
-        transport, asking = await loop.create_datagram_endpoint(
-            _Asking, remote_addr=(parts.hostname or "", parts.port or PORT), family=socket.AF_INET
-        )
-    except OSError as error:
-        raise Unreachable(f"{connection.address} cannot be reached: {error.strerror or error}") from error
-    return FinsSource(connection, items, transport, asking)
+        async with asyncio.timeout(ANSWER_S):
+            line = await open_line(parts.hostname or "", parts.port or PORT, connection.protocol == "fins+tcp")
+    except TimeoutError:
+        raise Unreachable(f"{connection.address} does not answer by FINS within {ANSWER_S:g} s") from None
+    except (OSError, BadAnswer) as error:
+        raise Unreachable(f"{connection.address} cannot be reached: {_words(error)}") from error
+    return FinsSource(connection, items, line)
+
+
+def _words(error: Exception) -> str:
+    return (error.strerror if isinstance(error, OSError) else "") or str(error)
 
 
 class FinsSource:
     """See `Source`."""
 
-    def __init__(
-        self, connection: Connection, items: Sequence[_Item], transport: asyncio.DatagramTransport, asking: "_Asking"
-    ) -> None:
-        self._connection, self._items, self._transport, self._asking = connection, items, transport, asking
+    def __init__(self, connection: Connection, items: Sequence[_Item], line: Line) -> None:
+        self._connection, self._items, self._line = connection, items, line
         self._number = 0
 
     async def find(self) -> Found:
@@ -96,7 +97,7 @@ class FinsSource:
 
     async def close(self) -> None:
         """See `Source`."""
-        self._transport.close()
+        self._line.close()
 
     async def _words(self, places: Sequence[tuple[str, int]]) -> list[int]:
         answer = await self._asked(read_places(places))
@@ -111,46 +112,29 @@ class FinsSource:
             raise Unreachable(f"{self._connection.address}: {error}") from error
 
     async def _asked(self, body: bytes) -> Answer:
-        to, own = (self._transport.get_extra_info(each)[0] for each in ("peername", "sockname"))
-        for _ in range(_TRIES):
+        line = self._line
+        for _ in range(line.tries):
             self._number = (self._number + 1) % 256
-            asked = request(_READ_PLACES, body, _node(to), _node(own), self._number)
-            self._asking.answers = asyncio.Queue()
-            self._transport.sendto(asked)
+            asked = request(_READ_PLACES, body, line.server, line.client, self._number)
+            line.send(asked)
             try:
                 async with asyncio.timeout(ANSWER_S):
                     return await self._answer(asked)
             except TimeoutError:
                 continue
-            except OSError as error:
-                raise Unreachable(f"{self._connection.address} cannot be reached: {error.strerror or error}") from error
-        raise Unreachable(f"{self._connection.address} does not answer by FINS over UDP within {ANSWER_S:g} s")
+            except (OSError, BadAnswer) as error:
+                raise Unreachable(f"{self._connection.address} cannot be reached: {_words(error)}") from error
+        raise Unreachable(f"{self._connection.address} does not answer by FINS over {line.name} within {ANSWER_S:g} s")
 
     async def _answer(self, asked: bytes) -> Answer:
         while True:
-            frame = await self._asking.answers.get()
+            frame = await self._line.answers.get()
             if isinstance(frame, Exception):
                 raise frame
             try:
                 return answer_to(asked, frame)
             except BadAnswer:  # to a question whose time was over
                 continue
-
-
-class _Asking(asyncio.DatagramProtocol):
-    def __init__(self) -> None:
-        self.answers: asyncio.Queue[bytes | Exception] = asyncio.Queue()
-
-    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
-        self.answers.put_nowait(data)
-
-    def error_received(self, exc: Exception) -> None:
-        self.answers.put_nowait(exc)
-
-
-def _node(host: str) -> Address:
-    """By the last number of an IP address, which is what makes nodes of addresses unless somebody sets a unit otherwise."""
-    return Address(node=int(host.rpartition(".")[2]))
 
 
 def _item(text: str) -> _Item:

@@ -111,7 +111,7 @@ export const disturb = {
 
   "import.controller": "Read a controller that runs…",
   "import.controller.about":
-    "It is read at an interval, and compared while it runs. Nothing is written to it. OPC UA: opc.tcp://HOST:4840. FINS over UDP: fins://HOST:9600.",
+    "It is read at an interval, and compared while it runs. Nothing is written to it. OPC UA: opc.tcp://HOST:4840. FINS: fins://HOST:9600 (UDP) or fins+tcp://HOST:9600.",
   "import.controller.address": "Address",
   "import.controller.connect": "Connect",
   "import.controller.interval": "Read every … ms",

@@ -113,7 +113,7 @@ export const disturb: Record<keyof typeof english, string> = {
 
   "import.controller": "運転中のコントローラを読み出す…",
   "import.controller.about":
-    "一定の間隔で読み出し、運転しながら比較します。コントローラには何も書き込みません。OPC UA：opc.tcp://ホスト:4840。FINS（UDP）：fins://ホスト:9600。",
+    "一定の間隔で読み出し、運転しながら比較します。コントローラには何も書き込みません。OPC UA：opc.tcp://ホスト:4840。FINS：fins://ホスト:9600（UDP）または fins+tcp://ホスト:9600。",
   "import.controller.address": "アドレス",
   "import.controller.connect": "接続",
   "import.controller.interval": "読み出し間隔（ms）",

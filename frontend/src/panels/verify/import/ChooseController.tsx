@@ -15,7 +15,7 @@ export function ChooseController() {
   const [password, setPassword] = useState("");
   const ms = /^\d{2,5}$/.test(interval.trim()) ? Number(interval) : 0;
   const bad = ms < 10 || ms > 60_000;
-  const known = /^(opc\.tcp|fins):\/\/[^/\s]+/i.test(address.trim());
+  const known = /^(opc\.tcp|fins|fins\+tcp):\/\/[^/\s]+/i.test(address.trim());
 
   function connect(): void {
     const named = nodes
