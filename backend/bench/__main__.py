@@ -28,6 +28,7 @@ SUBJECTS = (
     "comm",
     "heartbeat",
     "subranges",
+    "plugin",
 )
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),

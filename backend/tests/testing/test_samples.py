@@ -48,6 +48,17 @@ def test_the_lamp_is_lit_by_errors_that_the_program_looks_at(plc: Plc, error) ->
         plc.never(5, "lamp")
 
 
+@pytest.mark.scanbench(CONVEYOR)
+@pytest.mark.parametrize("error", [each for each in ERRORS if each.severity == "nonfatal"], ids=lambda error: error.id)
+def test_the_program_goes_on_with_an_error_that_is_not_fatal(plc: Plc, error) -> None:  # type: ignore[no-untyped-def]
+    plc.run(5)
+    plc.raise_error(error.id)
+    assert plc.value("Main.uptime") == 4 * 10_000_000  # of 10 ms each
+    plc.run(10)
+    assert plc.value("Main.uptime") == 14 * 10_000_000
+    assert plc.value("A400") != 0
+
+
 @pytest.mark.scanbench(DOSING)
 def test_the_dosing_plant_runs_without_an_error(plc: Plc) -> None:
     plc.run(250)

@@ -6649,7 +6649,7 @@ export interface components {
         NewController: {
             /**
              * Address
-             * @description opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT (UDP)
+             * @description opc.tcp://HOST:PORT of an OPC UA server, fins://HOST:PORT (UDP) or fins+tcp://HOST:PORT
              */
             address: string;
             /**
