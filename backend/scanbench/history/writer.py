@@ -21,10 +21,13 @@ from scanbench.runtime.forces import read_table
 from scanbench.runtime.migrate_image import changes
 from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
+from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import Place
 
+_DEEPEST = 16
+"""Blocks that pass an in-out by value on to each other, of which the innermost is looked for."""
 _BY_ITS = "a temporary, or nothing: ask for a variable that outlives its call, or halt inside of the block"
 
 
@@ -88,7 +91,7 @@ def find_writer(reader: RunReader, path: str, scan: int, prober: MakeProbed | No
             f"the PLC itself, in scan {changed}: {symbol.path}" + _said(symbol, value), value, _shown(symbol, value),
         )  # fmt: skip
     if noted is not None and position > at_command:
-        return _by_statement(reader, noted, symbol, value)
+        return _by_statement(reader, _inside(reader, noted, where, prober), symbol, value)
     if entered is not None:
         return _by_command(entered, symbol, value, held=False)
     if gap is not None:
@@ -194,6 +197,49 @@ def _statement(reader: RunReader, path: str, here: Position, prober: MakeProbed 
     if isinstance(found, Refusal):
         raise Unreadable(found.message, found.near)
     return found
+
+
+def _inside(reader: RunReader, noted: Noted, where: _Bytes, prober: MakeProbed | None) -> Noted:
+    """Of a call that copied an in-out by value back, the statement of the block that made the value, or of one that it passed its copy on
+    to. Where none did, the call itself."""
+    for _ in range(_DEEPEST):  # what is at the position of the call itself was written in it, too
+        begin = position_before(reader.timeline, noted)
+        paths = _copied(reader, noted, where)
+        found = [_statement(reader, path, (begin[0], noted.position[1] + 1), prober, begin[0]) for path in paths]
+        within = [
+            each
+            for each in found
+            if each is not None and begin < each.position <= noted.position and each.writer != noted.writer
+        ]
+        if not within:
+            return noted
+        noted = max(within, key=lambda each: (each.position, position_before(reader.timeline, each)))
+    return noted
+
+
+def _copied(reader: RunReader, noted: Noted, where: _Bytes) -> list[str]:
+    """The in-outs by value that are copies of the variable where something was noted."""
+    program = reader.timeline.resource.program
+    copies, names = program.layout.copies, names_of(program)
+    if not copies.all:
+        return []
+    reader.goto(*noted.position)
+    memory = reader.timeline.resource.memory
+    found = []
+    for each in copies.all:
+        spot = copies.actual(memory, each.start, None)
+        if spot is not None and 0 <= where.offset - spot[0] < each.end - each.start:
+            path = names.path(each.start + where.offset - spot[0]).replace(" (in-out)", "")
+            found += [path] if _is_path(program, path) else []
+    return found
+
+
+def _is_path(program: Program, path: str) -> bool:
+    try:
+        resolve(program, path)
+    except UnknownPath:  # of what is between two members, say
+        return False
+    return True
 
 
 def _by_statement(reader: RunReader, noted: Noted, symbol: Symbol, value: bytes) -> Writer:

@@ -274,3 +274,49 @@ def test_an_input_that_is_stuck(tmp_path: Path) -> None:
     found = _last(timeline, "CIO 0.03", 8)
     assert (found.by, found.author, found.scan) == ("command", "Bob", 5)
     assert "holds since scan 5" in found.text
+
+
+BY_VALUE = """\
+TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
+{in_out 'value'}
+FUNCTION_BLOCK Inner
+VAR_IN_OUT total : INT; END_VAR
+  total := total + 1;
+END_FUNCTION_BLOCK
+{in_out 'value'}
+FUNCTION_BLOCK Outer
+VAR_IN_OUT total, idle : INT; on : BOOL; pair : Pair; END_VAR VAR inner : ARRAY[1..2] OF Inner; END_VAR
+  inner[2](total := total);
+  on := NOT on;
+  pair.b := pair.b + 1;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR outer : Outer; pairs : ARRAY[1..2] OF Pair; t, u, v : INT; b : BOOL; w : WORD; END_VAR
+  v := 7;
+  outer(total := t, idle := u, on := w.3, pair := pairs[1]);
+  outer(total := u, idle := v, on := b, pair := pairs[2]);
+END_PROGRAM
+"""
+
+
+@ENGINES
+@pytest.mark.parametrize(
+    ("path", "line", "instance"),
+    [
+        ("Main.t", 5, "Main.outer.inner[2]"),
+        ("Main.u", 5, "Main.outer.inner[2]"),
+        ("Main.v", 18, "Main"),  # passed, and only copied back
+        ("Main.w.3", 11, "Main.outer"),
+        ("Main.b", 11, "Main.outer"),
+        ("Main.pairs[1].b", 12, "Main.outer"),
+        ("Main.pairs[2].b", 12, "Main.outer"),
+    ],
+)
+def test_through_in_outs_by_value_it_is_the_statement_that_made_the_value(
+    engine: EngineFactory, path: str, line: int, instance: str, tmp_path: Path
+) -> None:
+    timeline = begun(tmp_path / "run", BY_VALUE, engine)
+    advance(timeline, 5)
+    found = _last(timeline, path, engine=engine)
+    assert found.place is not None
+    assert (found.place.line, found.place.instance) == (line, instance)
