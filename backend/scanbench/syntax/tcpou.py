@@ -5,8 +5,6 @@ its own way (METHOD's end, an ACTION's name), then make up the POU that a plain 
 """
 
 import re
-from dataclasses import dataclass, field
-from xml.parsers import expat
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
@@ -15,107 +13,23 @@ from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
 from scanbench.syntax.parse_pou import ENDS
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.source import Source
+from scanbench.syntax.tcnwl import Archive, Network, NotRead, Operand, networks_in, write
+from scanbench.syntax.xml_outline import Element, NotWellFormed, Outline, Refused, reason
 
-MAX_XML_DEPTH = 64
 NAME_ATTRIBUTE = re.compile(r"""\sName\s*=\s*["']([^"']*)["']""")
-NOT_A_LINE_END = re.compile(r"[^\n]")
 OBJECTS = ("POU", "Itf", "DUT", "GVL")
-
-
-@dataclass(slots=True)
-class Element:
-    """One element of the XML: where it begins, and where its content is."""
-
-    tag: str
-    start: int
-    begin: int = 0
-    end: int = 0
-    children: list["Element"] = field(default_factory=list)
-
-    def child(self, *path: str) -> "Element | None":
-        """The first descendant along these tags."""
-        found: Element | None = self
-        for tag in path:
-            found = next((each for each in found.children if each.tag == tag), None) if found else None
-        return found
-
-
-class _Refused(Exception):
-    """XML that is not read."""
-
-
-class _Outline:
-    """Elements of a file, and its text with blanks for everything that is markup."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.root = Element("", 0)
-        self._open = [self.root]
-        self._parts: list[str] = []
-        self._at = 0
-        self._escaped = -1
-        """Where the last escaped character ended."""
-
-    def read(self) -> str:
-        # one byte a character, so that positions in bytes are positions in the text; what is kept is taken from the text
-        parser = expat.ParserCreate("iso-8859-1")
-        self._parser = parser
-        parser.StartElementHandler = self._start
-        parser.EndElementHandler = self._end
-        parser.CharacterDataHandler = self._data
-        parser.StartDoctypeDeclHandler = self._doctype
-        parser.Parse(self.text.encode("latin-1", "replace"), True)
-        self._blank(len(self.text))
-        return "".join(self._parts)
-
-    def _start(self, tag: str, _: dict[str, str]) -> None:
-        at = self._parser.CurrentByteIndex
-        if len(self._open) > MAX_XML_DEPTH:
-            raise _Refused(f"its elements nest more than {MAX_XML_DEPTH} deep")
-        element = Element(tag, at, self.text.index(">", at) + 1)
-        self._open[-1].children.append(element)
-        self._open.append(element)
-
-    def _end(self, _: str) -> None:
-        element = self._open.pop()
-        element.end = max(self._parser.CurrentByteIndex, element.begin)
-
-    def _data(self, data: str) -> None:
-        at = self._parser.CurrentByteIndex
-        if self.text[at] == "&":
-            # an escaped character takes the end of its entity that is nearer to its neighbour: `&lt;=` stays one operator
-            last = self.text.index(";", at)
-            at = at if self._escaped == at else last
-            self._blank(at)
-            self._parts.append(data)
-            self._at += 1
-            self._blank(last + 1)
-            self._escaped = last + 1
-            return
-        self._blank(at)
-        self._parts.append(self.text[at : at + len(data)])
-        self._at += len(data)
-
-    def _doctype(self, *_: object) -> None:
-        raise _Refused("it has a DOCTYPE, which such files do not")
-
-    def _blank(self, end: int) -> None:
-        """Fills up with blanks to here; lines stay lines."""
-        if end > self._at:
-            self._parts.append(NOT_A_LINE_END.sub(" ", self.text[self._at : end]))
-            self._at = end
 
 
 def parse_tc(source: Source) -> tuple[tree.File, list[Problem]]:
     """The tree of one TwinCAT file, and every problem on the way."""
-    outline = _Outline(source.text)
+    outline = Outline(source.text)
     try:
         text = outline.read()
-    except expat.ExpatError as error:
+    except NotWellFormed as error:
         at = _position(source.text, error.lineno, error.offset)
-        message = f"This is no well-formed XML: {expat.ErrorString(error.code)}. Export the file again."
+        message = f"This is no well-formed XML: {reason(error)}. Export the file again."
         return tree.File(source.name), [Problem("S003", message, source.span(at, at + 1))]
-    except _Refused as error:
+    except Refused as error:
         return tree.File(source.name), [Problem("S003", f"This XML is not read: {error}.", source.span(0, 1))]
     root = outline.root.children[0] if outline.root.children else outline.root
     found = next((each for each in root.children if each.tag in OBJECTS), None)
@@ -196,12 +110,43 @@ class _Writer:
         for each in implementation.children:
             if each.tag in ("ST", "IL"):
                 self._text(each)
+            elif each.tag == "NWL":
+                self._networks(each)
             else:
                 message = (
                     f"A body drawn in {each.tag} is not read from a file of TwinCAT; in TwinCAT export this POU as PLCopen XML "
                     "and import that, or write the body as Structured Text."
                 )
                 self._refuse(message, each)
+
+    def _networks(self, element: Element) -> None:
+        try:
+            found = list(networks_in(element, Archive(self.xml, self.source.text)))
+            for each in found:
+                self._refuse_in_line(each, element)
+        except NotRead as not_read:
+            message = f"{not_read.message}; in TwinCAT export this POU as PLCopen XML and import that, or write the body as Structured Text."
+            self._refuse(message, not_read.element)
+            return
+        for each in found:
+            write(each, self._add, self._operand)
+
+    def _refuse_in_line(self, network: Network, element: Element) -> None:
+        """Where a network begins is seen by its lines."""
+        first = network.lines[0].at if network.lines else element.end
+        if "\n" not in self.xml[network.at : first]:
+            raise NotRead("These networks are written in one line, which TwinCAT does not", element)
+
+    def _operand(self, operand: Operand, at: int) -> int:
+        """Its tokens, at their own places where they follow `at`: where they end."""
+        tokens, problems = tokenize(self.source, operand.begin, operand.end)
+        self.problems += problems
+        moved = 0 if operand.begin >= at else at - operand.begin
+        last = at
+        for kind, text, start in zip(tokens.kinds[:-AHEAD], tokens.texts[:-AHEAD], tokens.starts[:-AHEAD], strict=True):
+            self._add(kind, text, start + moved)
+            last = start + moved + len(text)
+        return last
 
     def _refuse(self, message: str, element: Element) -> None:
         self.problems.append(Problem("X001", message, self.source.span(element.start, element.start + 1)))

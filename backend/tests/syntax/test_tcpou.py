@@ -121,7 +121,7 @@ BROKEN = [
     ("", "S003 1:1 This is no well-formed XML: no element found. Export the file again."),
     ("<a>\n<b></a>", "S003 2:6 This is no well-formed XML: mismatched tag. Export the file again."),
     ("<!DOCTYPE x [<!ENTITY a 'b'>]><x>&a;</x>", "S003 1:1 This XML is not read: it has a DOCTYPE, which such files do not."),
-    ("<a>" * 100_000, "S003 1:1 This XML is not read: its elements nest more than 64 deep."),
+    ("<a>" * 100_000, "S003 1:1 This XML is not read: its elements nest more than 400 deep."),
     ("<a/>", "S003 1:1 A file of TwinCAT has one of the elements POU, Itf, DUT, GVL in it, but this has none."),
     ("x\0y", "S003 1:1 This is no well-formed XML: syntax error. Export the file again."),
     ('<a><POU Name="x"/></a>', "S003 1:4 This POU has no Declaration, so nothing is known of it. Export the file again."),

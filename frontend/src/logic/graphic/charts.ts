@@ -2,7 +2,7 @@
 
 import type { Chart, ChartAction, ChartStep, ChartTransition } from "./chart";
 import { readRung } from "./ladderRead";
-import { count, type Found, lineStartOf, networksIn, startsLine } from "./networks";
+import { count, type Found, lineStartOf, networksAfter, networksIn, startsLine } from "./networks";
 import { NotRead, Reader, wordsIn } from "./reader";
 import type { Span, Unread } from "./tree";
 
@@ -25,19 +25,28 @@ interface FoundChart {
 
 /** The networks and charts of a file, in the order of the text. A chart is before the networks of its actions. */
 export function partsIn(text: string): readonly Found[] {
-  if (last?.text !== text) last = { text, parts: read(text) };
+  if (last?.text !== text) last = read(text, last);
   return last.parts;
 }
 
-/** Several ask about the text that was edited last. */
-let last: { text: string; parts: readonly Found[] } | null = null;
+interface Known {
+  text: string;
+  parts: readonly Found[];
+  /** All networks, also those that are drawn with a chart. */
+  networks: readonly Found[];
+}
 
-function read(text: string): Found[] {
+/** Several ask about the text that was edited last. */
+let last: Known | null = null;
+
+function read(text: string, before: Known | null): Known {
   const charts = chartsIn(text);
-  const networks = networksIn(text).filter(
+  const all = before ? networksAfter(text, before) : networksIn(text);
+  const networks = all.filter(
     ({ from }) => !charts.some(({ parts }) => parts.some(({ at, end }) => from >= at && from < end)),
   );
-  return [...charts.map(({ found }) => found), ...networks].sort((a, b) => a.from - b.from);
+  const parts = [...charts.map(({ found }) => found), ...networks].sort((a, b) => a.from - b.from);
+  return { text, parts, networks: all };
 }
 
 function chartsIn(text: string): FoundChart[] {

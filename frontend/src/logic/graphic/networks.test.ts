@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { bodiesOf } from "./networks";
+import { bodiesOf, networksAfter, networksIn } from "./networks";
 import { stopIn } from "./places";
 import { Sheet } from "./sheet";
 
@@ -11,6 +11,44 @@ describe("the networks of a body", () => {
     const action = `ACTION Fill:\n${rung}END_ACTION\n`;
     const text = block("One", rung) + block("Two", `${rung}{off} ${rung}// a note\n${rung}${action}`);
     expect(bodiesOf(text).map((body) => body.length)).toEqual([1, 3, 1]);
+  });
+});
+
+describe("the networks after an edit", () => {
+  const body = `${rung}{off} ${rung}// a note (* no comment\nNETWORK "N"\n    a := b;\nEND_NETWORK\n${rung}`;
+  const whole = block("One", body) + block("Two", `${rung}{off}\n${rung}${rung}`);
+  const pieces = [
+    "",
+    "\n",
+    "(*",
+    "*)",
+    "//",
+    "'",
+    "END_RUNG",
+    "RUNG\n",
+    "END_RUNG\n",
+    "{off} ",
+    "[x]",
+    ' "title"',
+    "NETWORK\n",
+  ];
+
+  it("are those of a text that nobody knew before", () => {
+    let seed = 7;
+    const below = (most: number) => {
+      seed = (seed * 1103515245 + 12345) % 2147483648;
+      return seed % most;
+    };
+    let before = { text: whole, networks: networksIn(whole) };
+    for (let round = 0; round < 3000; round += 1) {
+      if (round % 40 === 0) before = { text: whole, networks: networksIn(whole) };
+      const at = below(before.text.length + 1);
+      const end = Math.min(before.text.length, at + (below(3) === 0 ? below(60) : 0));
+      const text = before.text.slice(0, at) + (pieces[below(pieces.length)] ?? "") + before.text.slice(end);
+      const networks = networksAfter(text, before);
+      expect(networks, JSON.stringify([before.text, text])).toEqual(networksIn(text));
+      before = { text, networks };
+    }
   });
 });
 

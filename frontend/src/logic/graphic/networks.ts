@@ -25,15 +25,58 @@ const BEGIN = /^([ \t]*)(?:(\{off\})[ \t]*\n?[ \t]*)?(RUNG|NETWORK)\b([^\n]*)/i;
 const HEAD = /^[ \t]*(?:([\p{L}_][\p{L}\p{N}_]*)[ \t]*:)?[ \t]*(?:"((?:[^"$\n]|\$.)*)")?[ \t]*(?:\/\/[^\n]*)?\r?$/u;
 
 /** All networks of a file, in the order of the text. */
-export function networksIn(text: string): Found[] {
+export const networksIn = (text: string): Found[] => scan(text, { at: 0, line: 1 }, () => null);
+
+/** What was found in a text before it was edited. */
+interface Earlier {
+  text: string;
+  networks: readonly Found[];
+}
+
+/** The same, where most of the text is as it was: what is before and after the edited part is not looked for again. */
+export function networksAfter(text: string, earlier: Earlier): Found[] {
+  const { text: before, networks } = earlier;
+  const moved = text.length - before.length;
+  const least = Math.min(text.length, before.length);
+  let head = 0;
+  while (head < least && text[head] === before[head]) head += 1;
+  let tail = 0;
+  while (tail < least - head && text[text.length - 1 - tail] === before[before.length - 1 - tail]) tail += 1;
+  // One that ends before the edited part ends where it did, as the character after it is the same.
+  const first = networks.findIndex(({ to, closed }) => !closed || to >= head);
+  const kept = first < 0 ? networks : networks.slice(0, first);
+  const last = kept.at(-1);
+  const begin = last
+    ? { at: last.to, line: last.line + count(text, last.from, last.to), inside: true }
+    : { at: 0, line: 1 };
+  const byStart = new Map(networks.map((found, index) => [found.from, index]));
+  const rest = (found: Found): Found[] | null => {
+    const index = found.from >= text.length - tail ? byStart.get(found.from - moved) : undefined;
+    const old = index === undefined ? undefined : networks[index];
+    if (old === undefined || old.text !== found.text || old.head.off !== found.head.off) return null;
+    const lines = found.line - old.line;
+    return networks
+      .slice((index ?? 0) + 1)
+      .map((each) => ({ ...each, from: each.from + moved, to: each.to + moved, line: each.line + lines }));
+  };
+  return [...kept, ...scan(text, begin, rest)];
+}
+
+/** From a place outside of comments and networks. `rest`: what follows a network, where that is known. */
+function scan(
+  text: string,
+  begin: { at: number; line: number; inside?: boolean },
+  rest: (found: Found) => readonly Found[] | null,
+): Found[] {
   const found: Found[] = [];
-  let at = 0;
-  let line = 1;
-  let lineStart = true;
+  let { at, line } = begin;
+  let lineStart = begin.inside !== true;
   while (at < text.length) {
     if (lineStart) {
       const network = networkAt(text, at, line);
       if (network) {
+        const known = rest(network);
+        if (known) return [...found, network, ...known];
         found.push(network);
         line += count(text, at, network.to);
         at = network.to;

@@ -17,19 +17,40 @@ export function writtenTwice(rungs: readonly { drawn: DrawnPart; pou: string }[]
   const keysOf: string[][] = rungs.map(() => []);
   for (const [index, { drawn, pou }] of rungs.entries()) {
     if (drawn.kind !== "rung" || drawn.path === null || drawn.found.head.off) continue;
-    for (const { element } of drawn.drawing?.elements ?? []) {
-      if (element.kind !== "coil") continue;
-      const key = `${pou}.${element.operand}`.toUpperCase();
-      const known = byName.get(key) ?? { name: element.operand, rungs: [], coils: 0, plain: false };
-      if (!known.rungs.includes(index)) known.rungs.push(index);
-      byName.set(key, { ...known, coils: known.coils + 1, plain: known.plain || "/".includes(element.mode) });
+    for (const { operand, mode } of coilsOf(drawn)) {
+      const key = `${pou}.${operand}`.toUpperCase();
+      const known = byName.get(key) ?? { name: operand, rungs: [], coils: 0, plain: false };
+      if (known.rungs.at(-1) !== index) known.rungs.push(index);
+      known.coils += 1;
+      known.plain ||= "/".includes(mode);
+      byName.set(key, known);
       if (!keysOf[index]?.includes(key)) keysOf[index]?.push(key);
     }
   }
-  return keysOf.map((keys) =>
-    keys.flatMap((key) => {
+  return keysOf.map((keys) => {
+    const twice = keys.flatMap((key) => {
       const each = byName.get(key);
       return each?.plain && each.coils > 1 ? [{ name: each.name, rungs: each.rungs }] : [];
-    }),
-  );
+    });
+    return twice.length === 0 ? NONE : twice;
+  });
+}
+
+const NONE: readonly Twice[] = [];
+
+interface Written {
+  operand: string;
+  mode: string;
+}
+
+/** The coils of each drawing: an edit changes one of many. */
+const coils = new WeakMap<object, readonly Written[]>();
+
+function coilsOf({ drawing, kind }: DrawnPart): readonly Written[] {
+  if (kind !== "rung" || !drawing) return [];
+  const known = coils.get(drawing);
+  if (known) return known;
+  const found = drawing.elements.flatMap(({ element }) => (element.kind === "coil" ? [element] : []));
+  coils.set(drawing, found);
+  return found;
 }

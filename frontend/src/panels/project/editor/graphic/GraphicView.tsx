@@ -1,4 +1,4 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
+import { useVirtualizer, type Virtualizer } from "@tanstack/react-virtual";
 import {
   type ClipboardEvent,
   type KeyboardEvent,
@@ -74,7 +74,7 @@ interface Props {
 /** The ladders, function block diagrams and charts of a file, drawn: a second view of its text. */
 export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
-  const parts = useRef(new Sheet());
+  const parts = useRef(sheetOf(path));
   const [width, setWidth] = useState(640);
   const [wanted, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
   const [renaming, setRenaming] = useState<Operand | null>(null);
@@ -167,7 +167,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
 
   function go(to: Cursor): void {
     setCursor(to);
-    virtual.scrollToIndex(to.rung);
+    // To scroll makes the browser lay the page out: an edit of what is in sight needs none of that.
+    if (!isInSight(virtual, to.rung)) virtual.scrollToIndex(to.rung);
   }
 
   // Keys of the whole page, like F9, mean the element at the cursor.
@@ -179,10 +180,10 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   useEffect(look, [cursor, drawn]);
 
   // A chart is higher than the window, and a rung may be wider: its element is scrolled to, not only its part.
+  const cursorKey = `${id}${cursor.rung}-${cursor.place.join(".")}`;
   useEffect(() => {
-    const key = `${id}${cursor.rung}-${cursor.place.join(".")}`;
-    document.getElementById(key)?.scrollIntoView({ block: "nearest", inline: "nearest" });
-  }, [cursor, id]);
+    document.getElementById(cursorKey)?.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }, [cursorKey]);
 
   function toText(): void {
     showAs(path, "both");
@@ -396,6 +397,26 @@ export default function GraphicView({ path, text, readOnly }: Props) {
       />
     </div>
   );
+}
+
+/** What was drawn of the files that were shown last: who comes back from the text finds it again. */
+const sheets = new Map<string, Sheet>();
+const MOST_SHEETS = 6;
+
+function sheetOf(path: string): Sheet {
+  const known = sheets.get(path) ?? new Sheet();
+  sheets.delete(path);
+  sheets.set(path, known);
+  for (const each of [...sheets.keys()].slice(0, -MOST_SHEETS)) sheets.delete(each);
+  return known;
+}
+
+/** Whether all of a part is in sight, by what is known without looking at the page. */
+function isInSight(virtual: Virtualizer<HTMLDivElement, Element>, index: number): boolean {
+  const item = virtual.getVirtualItems().find((each) => each.index === index);
+  const [top, height] = [virtual.scrollOffset, virtual.scrollRect?.height];
+  if (!item || top === null || height === undefined) return false;
+  return item.start >= top && item.end <= top + height;
 }
 
 /** The place on a wire that is clicked; null for a click that means none. */

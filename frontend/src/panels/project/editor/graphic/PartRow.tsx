@@ -1,4 +1,4 @@
-import { type ReactNode, useEffect, useRef, useState } from "react";
+import { memo, type ReactNode, useEffect, useRef, useState } from "react";
 import type { AllApart } from "../../../../logic/graphic/apart";
 import { type Drop, dropsOf } from "../../../../logic/graphic/drops";
 import type { PartFlow } from "../../../../logic/graphic/flow";
@@ -56,7 +56,7 @@ interface Props {
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function PartRow({
+export const PartRow = memo(function PartRow({
   path,
   part,
   number,
@@ -148,6 +148,15 @@ export function PartRow({
       </div>
     </div>
   );
+}, isSame);
+
+/** Whether a row looks as before. A part that moved within its line, as one above it was edited, is drawn as it was. */
+function isSame({ part: before, ...rest }: Props, { part, ...others }: Props): boolean {
+  const [one, other] = [before.found, part.found];
+  const moved = before.drawing === part.drawing && before.readable === part.readable;
+  const text = one.text === other.text && one.line === other.line && one.head.off === other.head.off;
+  if (!moved || !text) return false;
+  return (Object.keys(rest) as (keyof typeof rest)[]).every((key) => Object.is(rest[key], others[key]));
 }
 
 function Picture({
