@@ -62,6 +62,8 @@ class Chart:
     span: Span
     owner: str = ""
     """The name of the POU."""
+    whole: bool = True
+    """False: a step or transition of it could not be read, and is not in here."""
 
     @property
     def conditions(self) -> NetworkBody:

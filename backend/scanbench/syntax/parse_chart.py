@@ -25,6 +25,7 @@ def body(c: Cursor) -> chart.Chart:
     start = c.at
     steps: list[chart.Step] = []
     transitions: list[chart.Transition] = []
+    whole = True
     while not _ended(c):
         before, depth = c.at, c.depth
         try:
@@ -35,9 +36,9 @@ def body(c: Cursor) -> chart.Chart:
             else:
                 steps.append(_step(c))
         except Unexpected:
-            c.depth = depth
+            c.depth, whole = depth, False
             _skip(c, before)
-    return chart.Chart(tuple(steps), tuple(transitions), c.span_from(start))
+    return chart.Chart(tuple(steps), tuple(transitions), c.span_from(start), whole=whole)
 
 
 def _ended(c: Cursor) -> bool:

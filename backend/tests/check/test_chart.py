@@ -31,7 +31,7 @@ WRONG = [
     (with_action("b(L, T#1s);\nb(D, T#2s);"), "T010", 5, "`b` has two durations at once"),
     (with_action("b(SD, T#1s);\nb(SL, T#2s);"), "T010", 5, "SD and SL"),
     (with_action("x(N);"), "T002", 4, "`x` is INT"),
-    (with_action("gone(N);"), "T001", 4, "`gone`"),
+    (with_action("gone(N);"), "T001", 4, "`gone` is no action and no variable; write ACTION gone: ... END_ACTION"),
     (with_action("b(N)"), "S003", 4, "`;` expected after an action"),
     (AB.replace(":= b", ":= x"), "T006", 7, "A condition is BOOL"),
     (AB.replace(":= b;", "; "), "S003", 7, "`:=` and the condition of the transition expected"),
@@ -63,6 +63,11 @@ def test_step_is_a_name_elsewhere() -> None:
 def test_two_durations_of_steps_that_are_never_active_together_are_right() -> None:
     chart = AB.replace("One:\n", "One:\nc(L, T#1s);\n").replace("Two:\n", "Two:\nc(L, T#2s);\n")
     assert [each for each in problems(chart) if each.severity is Severity.ERROR] == []
+
+
+@pytest.mark.parametrize("condition", [":= ;", ";", ":"])
+def test_nothing_is_said_of_steps_while_a_transition_cannot_be_read(condition: str) -> None:
+    assert [each.code for each in problems(AB.replace(":= b;", condition))] == ["S003"]
 
 
 def test_two_durations_of_simultaneous_steps_are_refused() -> None:

@@ -131,7 +131,8 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         raise Rejected
     if body.scope.find(name) is not None:
         raise body.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
-    raise body.report.reject("T001", f"There is no function `{name}`.{hint}", node.span)
+    action = f"`{name}` is no action and no variable; write ACTION {name}: ... END_ACTION, or declare a BOOL."
+    raise body.report.reject("T001", action if body.chart else f"There is no function `{name}`.{hint}", node.span)
 
 
 def _known(body: Body) -> list[str]:

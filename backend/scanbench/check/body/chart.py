@@ -104,7 +104,11 @@ class ChartCode:
             self._code.emit(If(((condition, made),), (), self._made))
 
     def _call(self, name: tree.Expression, span: Span) -> None:
-        self._code.run(tree.ExpressionStatement(tree.Call(name, (), span), span))
+        self._body.chart = True
+        try:
+            self._code.run(tree.ExpressionStatement(tree.Call(name, (), span), span))
+        finally:
+            self._body.chart = False
 
     def _begin(self) -> None:
         """The first evaluation begins with the initial steps."""

@@ -64,7 +64,7 @@ def reachable(written: chart.Chart) -> set[Marking] | None:
 
 def _check_reached(body: Body, written: chart.Chart, markings: set[Marking]) -> None:
     reached = frozenset[str]().union(*markings)
-    if not any(each.initial for each in written.steps):
+    if not written.whole or not any(each.initial for each in written.steps):
         return
     for step in written.steps:
         if step.name.name.upper() not in reached:

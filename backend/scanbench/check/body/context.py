@@ -112,6 +112,8 @@ class Body:
     """Wires, in upper case, whose lines were refused: what reads them is not wrong by itself."""
     peeked: list[Span] = field(default_factory=list)
     """Variables of blocks that can be read from outside by the dialect only; nobody writes them there."""
+    chart: bool = False
+    """Whether what is called is an action that a step of a chart names."""
     wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)
     """By identity, values that were cut to their type, and what they were cut from; see `wide.py`."""
 
