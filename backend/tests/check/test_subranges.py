@@ -80,6 +80,31 @@ def test_the_list_is_bounded_and_counters_saturate(make: type[Engine]) -> None:
     assert read_violations(program, memory).count == 0xFFFF_FFFF
 
 
+IN_METHOD = """FUNCTION_BLOCK Box
+VAR v : INT (0..10); END_VAR
+METHOD PUBLIC put
+VAR_INPUT x : INT; END_VAR
+  v := x;
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR boxes : ARRAY[1..2] OF Box; END_VAR
+  boxes[2].put(x := 60);
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("make", [NativeEngine, ReferenceEngine])
+def test_a_violation_in_a_method_names_its_instance(make: type[Engine]) -> None:
+    program = check_sources({"a.st": IN_METHOD}, MODELS["GENERIC-IEC"]).program
+    assert program is not None
+    memory = bytearray(program.initial_image)
+    make(program, memory).run(1)
+    (found,) = read_violations(program, memory).entries
+    assert (found.pou, found.instance, found.variable, found.value) == ("Box.put", "Main.boxes[2]", "v", 60)
+    assert (found.span.line, found.times) == (5, 1)
+
+
 def test_constants_and_start_values_out_of_range_are_errors_at_their_place() -> None:
     text = "PROGRAM Main\nVAR x : INT (0..9) := 3;\ny : INT (0..9) :=\n10; END_VAR\nx :=\n -1;\nEND_PROGRAM\n"
     problems = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems

@@ -241,6 +241,7 @@ def test_the_command_reads_a_second_plc_by_opc_ua(server: Server, tmp_path: Path
     assert (nobody.returncode, "opc.tcp://127.0.0.1:1" in nobody.stderr) == (2, True), nobody
 
 
+@slow
 def test_the_command_reads_a_foreign_controller_by_opc_ua(foreign: Foreign, tmp_path: Path) -> None:
     given = (*verified(tmp_path), foreign.start(**GOOD), "--samples", "20")
     right = scanbench(*given)
