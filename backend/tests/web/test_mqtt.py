@@ -15,6 +15,7 @@ from paho.mqtt.enums import CallbackAPIVersion
 
 from scanbench.client import Refused, connect
 from scanbench.client.shapes.communication import CommunicationMqtt
+from tests.amounts import slow
 from tests.web.server import PATIENCE_S, Server
 from tests.web.sparkplug_host import read, rebirth
 from tests.web.test_communication import MODEL, until
@@ -170,3 +171,16 @@ def test_a_plc_is_an_edge_node_of_sparkplug_b(server: Server, tmp_path: Path) ->
 
 _MIDNIGHT_MS = 1795824000000
 """2026-11-28."""
+
+
+@slow
+def test_what_is_published_is_so_again_after_a_restart(tmp_path: Path) -> None:
+    with broker(tmp_path) as port:
+        with Server(tmp_path / "data") as server:
+            instance = server.instance("kept mqtt", MODEL, main=SOURCE)
+            publish(server, instance, port)
+            until(lambda: seen(server, instance)["connected"])
+        with Server(tmp_path / "data") as again, Host(port) as host:
+            name = again.http.get(f"/api/instances/{instance}").json()["name"]
+            host.next(f"scanbench/{name}/online", lambda told: told == b"true")
+            assert seen(again, instance)["settings"]["variables"] == [f"Main.{each}" for each in PATHS]
