@@ -45,7 +45,9 @@ DIALECTS: dict[DialectName, Dialect] = {
         Dialect(
             "rockwell",
             "Rockwell Logix",
-            _LOGIX | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION, Allowance.BITS_AS_REALS},
+            _LOGIX
+            | {Allowance.PROGRAM_CALLS, Allowance.BLOCK_VARIABLES, Allowance.OUTSIDE_PARTS}
+            | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION, Allowance.BITS_AS_REALS},
         ),
         Dialect("omron", "Omron Sysmac"),
     )

@@ -29,6 +29,7 @@ def import_file(
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in made.files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text, "utf-8")
     except OSError as error:
         usage(f"{folder} cannot be written: {error.strerror}")

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tests.cli.calling import scanbench
+from tests.syntax.l5x.test_project import controller, program, tag
 
 LINE = Path(__file__).parent.parent / "syntax" / "plcopen" / "line.xml"
 
@@ -49,3 +50,12 @@ def test_a_file_of_iec_61131_10_goes_in_and_out(tmp_path: Path) -> None:
     assert (told.returncode, told.stdout) == (0, "")
     assert scanbench("import", str(tmp_path / "again.xml"), str(tmp_path / "again")).returncode == 0
     assert (tmp_path / "again" / "Press.st").read_text() == (tmp_path / "press" / "Press.st").read_text()
+
+
+def test_a_file_of_studio_5000_comes_with_its_library(tmp_path: Path) -> None:
+    (tmp_path / "axis.L5X").write_bytes(
+        controller("", program("P", "GSV(WallClockTime, , LocalDateTime, x);", tag("x", "DINT")))
+    )
+    told = scanbench("import", str(tmp_path / "axis.L5X"), str(tmp_path / "axis"))
+    assert told.stderr == ""
+    assert (tmp_path / "axis" / "libraries" / "Controller.st").exists()

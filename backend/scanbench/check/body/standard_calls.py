@@ -4,7 +4,7 @@ import re
 from functools import partial
 
 from scanbench.check.body import conversions, fold, standard_fold, wide
-from scanbench.check.body.allowed import may, used
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.lenient import (
@@ -32,6 +32,7 @@ from scanbench.check.standard.functions import (
 )
 from scanbench.program.origin import in_library
 from scanbench.program.program import Compare, Const, Expr, Place
+from scanbench.program.shown import shown
 from scanbench.program.types import (
     BOOL,
     CHAR,
@@ -41,8 +42,10 @@ from scanbench.program.types import (
     LTIME,
     MAX_STRING,
     TIME,
+    ULINT,
     Elementary,
     Kind,
+    Reference,
     StringType,
     Type,
 )
@@ -271,7 +274,7 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
     value_tree = ordered(body, node, name, Special(("IN",), ""))[0]
     source, target = parsed.source, parsed.target
     if source is None:
-        value = settle(body.expression(value_tree))
+        value = _number_of_pointer(body, settle(body.expression(value_tree)), name, value_tree)
     else:
         value = as_type(body, value_tree, source, f"What {name} takes")
     if target is None:
@@ -303,6 +306,14 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
             node.span,
         )
     return result
+
+
+def _number_of_pointer(body: Body, value: Expr, name: str, node: tree.Expression) -> Expr:
+    """The number that a pointer is, where the dialect has that; other values as they are."""
+    if not isinstance(value.type, Reference) or not value.type.pointer:
+        return value
+    what = f"`{name}` converts the address that `{shown(node)}` holds"
+    return fold.convert(ULINT, value) if allowed(body, Allowance.POINTER_NUMBERS, node.span, what) else value
 
 
 def _signed_text(body: Body, node: tree.Call, name: str, value: Expr, text: Expr) -> Expr:

@@ -248,6 +248,21 @@ def test_routines_are_given_values_and_give_some_back() -> None:
     assert values == {"a": "100", "b": "101", "sum": "103", "less": "97"}
 
 
+def test_tags_of_other_programs_are_read_and_written() -> None:
+    tasks = '<Tasks><Task Name="T" Type="PERIODIC" Rate="10" Priority="5"><ScheduledPrograms>' + "".join(
+        f'<ScheduledProgram Name="{name}"/>' for name in "AB"
+    ) + "</ScheduledPrograms></Task></Tasks>"  # fmt: skip
+    a = program("A", "seen := \\B.count; \\B.limit := seen + 10;", tag("seen", "DINT"))
+    b = program(
+        "B",
+        "count := count + 1; full := count > limit;",
+        tag("count", "DINT") + tag("limit", "DINT") + tag("full", "BOOL"),
+    )
+    plc = BothEngines(read_project(controller("", a + b, tasks)).files, MODELS["GENERIC-IEC"])
+    plc.run(3)
+    assert plc.values("A_1.seen", "B_1.count", "B_1.limit", "B_1.full") == ["2", "3", "12", "FALSE"]
+
+
 @pytest.mark.parametrize(
     ("text", "found"),
     [
