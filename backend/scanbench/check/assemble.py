@@ -74,7 +74,7 @@ def assemble(
             _tell_empty(report, where, around)
         return None
     areas = place_areas(declarations.model)
-    layout = Layout(declarations.model, areas, globals=variables, symbols=declarations.symbols)
+    layout = Layout(declarations.model, areas, variables, pous.aliases, declarations.symbols)
     resources = [each.name for each in planner.resources if each.name]
     placing = _Placing(report, pous, align(around.placed.size), dict(around.placed.members))
     common = placing.one_by_one(around.common)

@@ -18,11 +18,21 @@ from scanbench.server.archive import unpack
 from scanbench.server.completed import completed, unknown_libraries
 from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text, twincat_projects
 from scanbench.server.twincat_project import TwinCatProject
-from scanbench.syntax.language_file import DIALECTS, LANGUAGE_FILE, dialect_named, with_dialect
+from scanbench.syntax.language_file import (
+    DIALECTS,
+    LANGUAGE_FILE,
+    STRICT,
+    dialect_by_format,
+    dialect_named,
+    is_language_file,
+    with_dialect,
+)
 from scanbench.wire.refused import Refused
 
 ARCHIVE = ".zip"
-DIALECT_HELP = f"Dialect of the programs: {', '.join(DIALECTS)}; else language.json's, else iec."
+DIALECT_HELP = (
+    f"Dialect of the programs: {', '.join(DIALECTS)}; else language.json's, else that of the files' format, else iec."
+)
 PARTLY = 4
 """Exit code where what was looked at is right, but not all could be: a run file is damaged, say, and a part of the run is lost."""
 
@@ -97,6 +107,11 @@ def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool 
         if named is None:
             usage(f"there is no dialect {dialect}: write one of {', '.join(DIALECTS)}")
         texts = with_dialect(texts, named, str(folder / LANGUAGE_FILE))
+    elif not any(map(is_language_file, texts)) and (of_format := dialect_by_format(texts)) != STRICT:
+        typer.echo(
+            f"scanbench: {of_format} programs by the format of their files (--dialect names a different one)", err=True
+        )
+        texts = with_dialect(texts, of_format, str(folder / LANGUAGE_FILE))
     made = completed(texts, projects, str(folder)) if libraries else texts
     return Sources(made, model, tuple(unknown_libraries(projects, made)))
 

@@ -86,6 +86,8 @@ class Layout:
     """Offset of each area of the model."""
     globals: Record | None = None
     """Members with absolute offsets."""
+    lists: dict[str, str] = field(default_factory=dict)
+    """`LIST.X` of the lists of global variables, in upper case: the name of `x` in `globals`."""
     symbols: Record | None = None
     """Variables that the model gives to every program; located, all of them."""
     frames: int = 0

@@ -175,7 +175,8 @@ def _global(program: Program, member: Member) -> Symbol:
 
 
 def _root(program: Program, name: str) -> Symbol | None:
-    upper, owner = name.upper(), program.layout.globals
+    owner, upper = program.layout.globals, name.upper()
+    upper = program.layout.lists.get(upper, upper).upper()
     instance = next((each for each in program.shown if each.name.upper() == upper), None)
     member = owner.members.get(upper) if owner is not None else None
     found = None

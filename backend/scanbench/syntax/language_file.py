@@ -195,6 +195,18 @@ def _problem(file: str, message: str, line: int = 1) -> Problem:
     return Problem("S003", message, Span(file, line, 1, line, 2), Severity.ERROR)
 
 
+def dialect_by_format(names: Iterable[str]) -> DialectName:
+    """The dialect that files of these names are written in: of a format that only one vendor's tool writes; else the strict one."""
+    for name in map(str.lower, names):
+        if name.endswith((".plcproj", ".tsproj", *XML_ENDINGS)):
+            return "twincat"
+        if name.endswith((".scl", ".udt")):
+            return "siemens"
+        if name.endswith(".l5x"):
+            return "rockwell"
+    return STRICT
+
+
 def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> DialectName:
     """The dialect that imported programs are probably written in; `others` are files that were not taken over."""
     names = [name.lower() for name in (*files, *others)]

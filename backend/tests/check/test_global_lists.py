@@ -1,6 +1,7 @@
 """Lists of global variables (.TcGVL): their variables are known with the list's name in front, and without it where one list has them."""
 
 from scanbench.check.build import Checked, check_sources
+from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS
 
@@ -38,6 +39,9 @@ def test_tools_find_variables_of_lists_and_namespaces() -> None:
     program = check("y").program
     assert program is not None
     assert resolve(program, "M.x").path == "M.x"
+    assert resolve(program, "m.Z").path == "z", "which one list only has"
+    assert isinstance(compile_condition(program, "M.z > 1 AND M.x = 2"), Condition)
+    assert isinstance(compile_condition(program, "M.y > 1"), BadCondition)
     text = "NAMESPACE Plant\nVAR_GLOBAL level : ARRAY[0..1] OF INT; END_VAR\nEND_NAMESPACE\n" + MAIN.format("1")
     program = check_sources({"m.st": text}, MODELS["GENERIC-IEC"]).program
     assert program is not None

@@ -37,12 +37,19 @@ def test_an_unknown_dialect_is_told_with_those_that_there_are(tmp_path: Path) ->
     assert "there is no dialect basic: write one of iec, codesys" in said.stderr
 
 
-def test_nothing_is_guessed_but_the_likely_dialect_is_named(tmp_path: Path) -> None:
+def test_the_format_of_files_names_the_dialect_and_the_command_line_goes_before_it(tmp_path: Path) -> None:
     (tmp_path / "Main.TcPOU").write_text(TWINCAT)
     said = scanbench("check", str(tmp_path))
+    assert (said.returncode, "twincat programs by the format" in said.stderr) == (0, True), said
+    assert scanbench("check", str(tmp_path), "--dialect", "iec").returncode == 1
+    assert "by the format" not in scanbench("check", str(tmp_path), "--dialect", "twincat").stderr
+
+
+def test_the_likely_dialect_of_text_is_named(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text("{attribute 'qualified_only'}\nVAR_GLOBAL g : INT; END_VAR\n" + WORDS)
+    said = scanbench("check", str(tmp_path))
     assert (said.returncode, said.stdout.count("T002")) == (1, 1)
-    assert "--dialect twincat" in said.stderr
-    assert "--dialect" not in scanbench("check", str(tmp_path), "--dialect", "twincat").stderr
+    assert "--dialect codesys" in said.stderr
 
 
 def test_a_recorded_run_is_replayed_in_its_dialect(tmp_path: Path) -> None:

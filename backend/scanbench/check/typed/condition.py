@@ -280,7 +280,7 @@ def program_body(visible: Visible, report: Report, scope: Scope, lookup: Lookup,
     for each in visible.enumerations:
         declarations.types[each.name.upper()] = each
         declarations.values.add_inline("GLOBAL", each)
-    body = body_of(report, declarations, Pous(), scope, None, lookup, LOOKING, call)
+    body = body_of(report, declarations, Pous(aliases=layout.lists), scope, None, lookup, LOOKING, call)
     return body
 
 
