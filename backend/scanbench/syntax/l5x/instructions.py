@@ -21,6 +21,9 @@ def copied(known: Known, tell: Tell, given: list[str]) -> str:
     if one is None or other is None or not same_bytes(one.type, other.type, known):
         tell(notes.other_bytes(f"COP({', '.join(given)})"))
         return f"COP({', '.join(given)})"
+    if "." in other.text and length.isdigit() and other.left.isdigit() and int(length) > int(other.left):
+        tell(notes.other_bytes(f"COP({', '.join(given)})"))  # there it goes on into the members that follow
+        return f"COP({', '.join(given)})"
     size = f"MIN({length}, {other.left}) * SIZEOF({other.text})"
     if one.type != other.type or one.left != other.left:
         size = f"MIN({size}, ({one.left}) * SIZEOF({one.text}))"
@@ -44,6 +47,9 @@ def sized(known: Known, tell: Tell, given: list[str]) -> str:
     """SIZE: the elements of a dimension of an array."""
     source, dimension, result = (*given, "", "", "")[:3]
     sizes = known.types.get(source.partition("[")[0].strip().upper(), ("", ()))[1]
+    member = element(source, known) if "." in source and dimension == "0" else None
+    if member is not None and member.left.isdigit() and member.text.endswith("[0]"):
+        return f"{result} := {member.left}"
     if not dimension.isdigit() or int(dimension) >= len(sizes):
         tell(notes.no_size(f"SIZE({', '.join(given)})"))
         return f"SIZE({', '.join(given)})"

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from scanbench.syntax.l5x import notes
+from scanbench.syntax.l5x import notes, texts
 from scanbench.syntax.l5x.instructions import WRITTEN
 from scanbench.syntax.l5x.known import Known, Parameter, Passed
 from scanbench.syntax.l5x.names import CONTROLLER, INSTRUCTIONS, LIBRARY, NOTHING, STUBS, name_of
@@ -115,9 +115,9 @@ class _Writer:
             return name_of(piece.text)
         if piece.text.upper() in FLAGS:
             return self._flag(piece.text.upper())
-        bit = self._chosen_bit()
-        if bit is not None:
-            return bit
+        instead = self._chosen_bit() or self._assigned_text()
+        if instead is not None:
+            return instead
         if self._next() == "(":
             return self._call(piece.text)
         return self._name(piece.text)
@@ -213,6 +213,20 @@ class _Writer:
         self._at = end
         return f"{value} := {LIBRARY}.WITH_BIT({value}, {number}, {given})"
 
+    def _assigned_text(self) -> str | None:
+        """`name := 'text'` of a text of an own type, which begins with the name that was taken; None of all else."""
+        end = self._operand(self._at - 1)
+        sign = self._after_blanks(end)
+        value = None if sign is None or self._pieces[sign].text != ":=" else self._after_blanks(sign + 1)
+        after = None if value is None or self._pieces[value].kind != "text" else self._after_blanks(value + 1)
+        if value is None or after is None or self._pieces[after].text != ";":
+            return None
+        target = "".join(each.text for each in self._pieces[self._at - 1 : end] if each.kind not in BLANK)
+        made = texts.assigned(self._again(target), self._pieces[value].text, self._known)
+        if made is not None:
+            self._at = value + 1
+        return made
+
     def _closing(self, at: int) -> int | None:
         """Where the bracket that is here is closed."""
         depth = 0
@@ -242,6 +256,8 @@ class _Writer:
             return instead(self, self._arguments())
         if upper in WRITTEN:
             return WRITTEN[upper](self._known, self._tell, self._arguments())
+        if upper in texts.READ:
+            return texts.instruction(upper, self._arguments(), self._known)
         return f"{LIBRARY}.{upper}" if upper in INSTRUCTIONS else name_of(name)
 
     def _instruction(self, parameters: Sequence[Parameter], given: list[str]) -> str:

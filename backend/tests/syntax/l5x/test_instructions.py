@@ -1,11 +1,15 @@
 """What instructions of Logix compute in Structured Text that is read out of L5X, and which are stubs."""
 
+from collections.abc import Sequence
+
 import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.problems import Severity
+from scanbench.syntax.l5x.known import Known
 from scanbench.syntax.l5x.project import read_project
+from scanbench.syntax.l5x.statements import statements
 from tests.caseformat import MODELS
 from tests.syntax.both_engines import BothEngines
 
@@ -16,10 +20,20 @@ TAGS = {
     "Bit": "BOOL", "First": "BOOL", "Clock": "DINT[7]", "Stamp": "LINT", "Halves": "DINT[2]", "Scan": "DINT", "Field": "FBD_BIT_FIELD_DISTRIBUTE",
     "Move": "FBD_MASKED_MOVE", "Flop": "FLIP_FLOP_D", "Range": "SCALE", "Limits": "HL_LIMIT", "Call": "MESSAGE", "Axis1": "AXIS_CIP_DRIVE",
     "Motion": "MOTION_INSTRUCTION", "Own": "Unit", "Speed": "DINT", "Order": "DINT", "Text": "STRING",
+    "Short": "Str8", "Tiny": "Str3", "Long": "Str200", "Holder": "Holder",
 }  # fmt: skip
 TYPES = (
     '<DataType Name="Pair"><Members><Member Name="A" DataType="DINT" Dimension="0" Hidden="false"/>'
     '<Member Name="B" DataType="REAL" Dimension="0" Hidden="false"/></Members></DataType>'
+)
+TYPES += "".join(
+    f'<DataType Name="Str{size}" Family="StringFamily"><Members><Member Name="LEN" DataType="DINT" Dimension="0" Hidden="false"/>'
+    f'<Member Name="DATA" DataType="SINT" Dimension="{size}" Hidden="false"/></Members></DataType>'
+    for size in (3, 8, 200)
+)
+TYPES += (
+    '<DataType Name="Holder"><Members><Member Name="Label" DataType="Str8" Dimension="2" Hidden="false"/>'
+    '<Member Name="Note" DataType="Str200" Dimension="0" Hidden="false"/></Members></DataType>'
 )
 UNIT = """<AddOnInstructionDefinition Name="Unit"><Parameters>
 <Parameter Name="On" TagType="Alias" DataType="BOOL" Usage="Input" AliasFor="Own.Run" Required="false"/>
@@ -38,6 +52,9 @@ COP(Numbers[0], Bytes[0], 8); COP(Numbers[1], Level, 1); COP(Bytes[1], Words[1],
 Pair.A := 7; Pair.B := 2.5; COP(Pair, Pairs[1], 1); COP(Pair, Copies[0], 2); COP(Copies[0], Copies[2], 9);""",
     "ElementsAreFilled": """FLL(-3, Numbers[1], 99); FLL(44, Bytes[0], 2); Pairs[0].A := 5; Pairs[1].A := 6; FLL(0, Pairs[1], 9); FLL(1, Level, 1);""",
     "TextsAreCompared": """One := 'Pump'; Two := 'Pumps'; Less := One < Two; Same := One = 'Pump'; Bit := Two <> One; COP(One.DATA[1], Bytes[0], 2);""",
+    "TextsOfOwnTypes": """Short := 'Pump'; CONCAT(Short, '-12345', Short); FIND(Short, '-1', 1, Count); STOD(Short, Index);
+MID(Short, 9, 3, Tiny); DTOS(-1234567890, Holder.Label[1]); Holder.Label[0] := ''; UPPER(Short, One); Holder.Note := 'spare';
+IF Index < 0 THEN DELETE(Short, 4, 1, Short); ELSE Short := 'no'; END_IF; INSERT(Tiny, Short, 2, Two); SIZE(Holder.Note.DATA, 0, Speed);""",
     "ABitMay": """Index := 30; Flags.[Index + 1] := 1; Flags.[2] := NOT Same; Bit := Flags.[Index]; First := Flags.31 AND Flags.[Index + 1];""",
     "BytesChangePlaces": """Small := 16#1234; SWPB(Small, REVERSE, Small); Order := 16#01020304;
 SWPB(Order, REVERSE, Numbers[0]); SWPB(Order, WORD, Numbers[1]); SWPB(Order, HIGH_LOW, Numbers[2]); SIZE(Numbers[0], 0, Count);
@@ -118,6 +135,36 @@ def test_elements_are_filled_up_to_the_end_and_structures_with_zero(line: BothEn
 
 def test_texts_are_compared_by_their_characters(line: BothEngines) -> None:
     assert values(line, "TextsAreCompared", "Less", "Same", "Bit", "Bytes[0]") == ["TRUE", "TRUE", "TRUE", "117"]
+
+
+def test_texts_of_own_types_are_taken_and_made_up_to_their_size(line: BothEngines) -> None:
+    program = "TextsOfOwnTypes"
+    assert values(line, program, "Count", "Index", "Speed") == ["5", "-123", "200"]
+    assert text_in(line, program, "Short") == "-123"
+    assert text_in(line, program, "Tiny") == "mp-"
+    assert text_in(line, program, "Two") == "m-123p-"
+    assert text_in(line, program, "Holder.Label[1]") == "-1234567"
+    assert text_in(line, program, "Holder.Label[0]") == ""
+    assert text_in(line, program, "Holder.Note") == "spare"
+    assert text_in(line, program, "One") == "PUMP-123"
+    assert values(line, program, "Short.DATA[4]") == ["0"]
+
+
+def text_in(line: BothEngines, program: str, name: str) -> str:
+    size = int(values(line, program, f"{name}.LEN")[0])
+    return "".join(chr(int(each)) for each in values(line, program, *(f"{name}.DATA[{at}]" for at in range(size))))
+
+
+def test_what_texts_and_copies_of_own_types_cannot_keep_stays_as_it_is() -> None:
+    members: dict[str, dict[str, tuple[str, Sequence[int]]]] = {
+        "STR200": {"LEN": ("DINT", ()), "DATA": ("SINT", (200,))},
+        "PAIR": {"A": ("DINT", ()), "B": ("DINT", ())},
+    }
+    known = Known(types={"LONG": ("STR200", ()), "PAIR": ("PAIR", ()), "BYTES": ("SINT", (8,))}, members=members)
+    told: list[str] = []
+    written = statements("CONCAT(Long, 'a', Long); COP(Bytes[0], Pair.A, 2); SIZE(Pair.A, 0, n);", known, told)
+    assert written == "Logix.CONCAT(Long, Logix.TEXT('a'), Long); COP(Bytes[0], Pair.A, 2); SIZE(Pair.A, 0, n);"
+    assert len(told) == 2
 
 
 def test_a_bit_may_be_chosen_by_a_tag(line: BothEngines) -> None:
