@@ -27,6 +27,12 @@ export function needsDetails(error: ErrorInfo): boolean {
   return error.details.some(isOpen);
 }
 
+/** Whether the device can have several instances of the error present together. */
+export function canBeSeveral(error: ErrorInfo): boolean {
+  const identifying = error.details.filter(({ identifies }) => identifies !== "");
+  return identifying.length > 0 && identifying.every(({ identifies }) => identifies === "several");
+}
+
 const isOpen = (detail: ErrorDetail): boolean => detail.control !== "List" || (detail.choices ?? []).length > 1;
 
 /** A text of at most `maximum` characters is sent as it is; all other entries are numbers, in any format. */

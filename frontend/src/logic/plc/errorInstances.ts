@@ -67,6 +67,9 @@ export function labelOf(instances: Rows, id: string, details: string): string {
 
 const pairsIn = (key: string): string[] => key.slice(idOf(key).length + 1).split(",");
 
+/** The details in the key of an instance, as the history has them: `rack=2, slot=3`. */
+export const detailsIn = (key: string): string => pairsIn(key).join(", ");
+
 /** What raises just this instance. */
 export function wantedOf(key: string): GenerateOne {
   return { id: idOf(key), details: Object.fromEntries(pairsIn(key).map((pair) => pair.split("=", 2))) };

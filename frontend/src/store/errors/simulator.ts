@@ -3,6 +3,7 @@
 import { create } from "zustand";
 import { type ErrorStatus, hiddenKeys, type ReactionFilter, toggleAll } from "../../logic/errors/catalogue";
 import {
+  canBeSeveral,
   defaultEntries,
   type Entries,
   type Entry,
@@ -11,7 +12,7 @@ import {
   wireDetails,
 } from "../../logic/errors/details";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../../logic/errors/shapes";
-import { idOf, instancesByKind, isInstance, keyOf, wantedOf } from "../../logic/plc/errorInstances";
+import { detailsIn, idOf, instancesByKind, isInstance, keyOf, wantedOf } from "../../logic/plc/errorInstances";
 import { withName } from "../../logic/plc/expression";
 import { send } from "../../wire/send";
 import type { ErrorHistoryRow, ErrorInfo, GenerateOne } from "../../wire/types";
@@ -152,6 +153,8 @@ export const showAll = () => set({ filter: "", status: "all", severity: "all", r
 /** What is hidden is ticked no more. */
 export const untickHidden = () => set((state) => ({ checked: new Set(shownOf(state)) }));
 
+export const untickAll = () => set({ checked: new Set(), outcome: null });
+
 /** The errors that the buttons act on: the ticked ones that are shown, else the selected one; the key of a group begins with a slash. */
 export function targets(state: Chosen): string[] {
   const hidden = hiddenOf(state);
@@ -169,7 +172,7 @@ export function asksFirst(state: Chosen, errors: readonly ErrorInfo[]): boolean 
   return chosen.some(needsDetails);
 }
 
-/** The errors that the buttons act on, in the order of the catalogue. */
+/** The errors that the buttons act on with the details that are shown or asked for, in the order of the catalogue. */
 export function chosenOf(state: Chosen, errors: readonly ErrorInfo[]): ErrorInfo[] {
   const single = new Set(instancesOf(state));
   const wanted = new Set(
@@ -180,15 +183,44 @@ export function chosenOf(state: Chosen, errors: readonly ErrorInfo[]): ErrorInfo
   return errors.filter((error) => wanted.has(error.id));
 }
 
-/** The ticked instances: they are raised with their own details. The selected one is raised with the details that are shown. */
+/** The ticked instances that are raised with their own details. Of a kind that can be present only once, several are none of them: which one is asked. */
 export function instancesOf(state: Ticked): string[] {
-  return shownOf(state).filter(isInstance);
+  const { byId } = catalogueNow();
+  const shown = shownOf(state);
+  return shown.filter((key) => {
+    const error = byId.get(idOf(key));
+    const alone = !shown.some((other) => other !== key && idOf(other) === idOf(key));
+    return isInstance(key) && (alone || !error || canBeSeveral(error));
+  });
+}
+
+/** What the buttons raise, as it is sent. */
+export function wantedNow(state: Chosen, errors: readonly ErrorInfo[]): GenerateOne[] {
+  return [...asWanted(chosenOf(state, errors)), ...instancesOf(state).map(singleWanted)];
+}
+
+/** An instance with its own details; the selected one has those that are shown and may be edited. */
+function singleWanted(key: string): GenerateOne {
+  const error = key === get().selected ? catalogueNow().byId.get(idOf(key)) : undefined;
+  return (error && asWanted([error])[0]) ?? wantedOf(key);
 }
 
 /** Opens the dialog for these errors, whether they need details or not. */
 export function askDetails(errors: readonly ErrorInfo[]): void {
   const chosen = chosenOf(get(), errors);
-  if (chosen.length > 0) set({ asking: chosen.map((error) => error.id), outcome: null });
+  if (chosen.length === 0) return;
+  // Of several ticked instances of a kind that can be present only once, the first is proposed.
+  const first = Object.fromEntries(
+    chosen.flatMap((error) => {
+      const key = targets(get()).find((each) => isInstance(each) && idOf(each) === error.id);
+      return key && !get().details[error.id] ? [[error.id, entriesIn(error, detailsIn(key))] as const] : [];
+    }),
+  );
+  set(({ details }) => ({
+    details: { ...details, ...first },
+    asking: chosen.map((error) => error.id),
+    outcome: null,
+  }));
 }
 
 /** Raises these errors; opens the dialog first if several need details. */
@@ -197,7 +229,7 @@ export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
   else await raise(chosenOf(get(), errors), { single: instancesOf(get()) });
 }
 
-export const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
+const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
   errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesNow(error)) }));
 
 /** Raises these errors in one seam, or arms them if they come later, one by one or temporarily. True when it was accepted. */
@@ -205,14 +237,15 @@ export async function raise(
   errors: readonly ErrorInfo[],
   { gap = 0, again = false, single = [] as readonly string[] } = {},
 ): Promise<boolean> {
-  const wanted = [...asWanted(errors), ...single.map(wantedOf)];
+  const wanted = [...asWanted(errors), ...single.map(singleWanted)];
+  const about = [...errors.map(({ id }) => id), ...single];
   if (wanted.length === 0) return false;
   const { shape: form } = get();
   if (again || (isPlain(form) && gap === 0))
-    return report(send({ type: "generate", errors: wanted, again, anyway: false }), errors, wanted);
+    return report(send({ type: "generate", errors: wanted, again, anyway: false }), about, wanted);
   const { start, shape, troubles } = readShape(form, readClock().scan);
   if (Object.keys(troubles).length > 0) return false;
-  const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), errors);
+  const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), about);
   // The form returns to an ordinary Generate for the next error.
   if (accepted) set(({ shape: now }) => ({ shape: { ...now, when: "now", how: "stay" } }));
   return accepted;
@@ -231,7 +264,11 @@ export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outco
 export async function skipPresent(errors: readonly ErrorInfo[], outcome: Outcome): Promise<boolean> {
   const ids = new Set(outcome.ids);
   const wanted = errors.filter((error) => ids.has(error.id));
-  return report(send({ type: "generate_absent", errors: asWanted(wanted) }), wanted);
+  const single = outcome.ids.filter(isInstance);
+  return report(
+    send({ type: "generate_absent", errors: [...asWanted(wanted), ...single.map(singleWanted)] }),
+    outcome.ids,
+  );
 }
 
 /** Recovers those of the chosen errors that are generated; `everything` recovers all errors. */
@@ -258,9 +295,8 @@ export async function clearFatal(): Promise<boolean> {
 
 /** Raises what is not fitted: the device can report it, and the history says that hardware.json does not have it. */
 export function raiseAnyway(wanted: readonly GenerateOne[]): Promise<boolean> {
-  const ids = new Set(wanted.map(({ id }) => id));
-  const errors = catalogueNow().errors.filter(({ id }) => ids.has(id));
-  return report(send({ type: "generate", errors: [...wanted], again: false, anyway: true }), errors);
+  const ids = [...new Set(wanted.map(({ id }) => id))];
+  return report(send({ type: "generate", errors: [...wanted], again: false, anyway: true }), ids);
 }
 
 /** What is wanted, where all of it that is not fitted can be raised anyway. */
@@ -272,12 +308,11 @@ function absentOf(wanted: readonly GenerateOne[]): readonly GenerateOne[] {
 
 async function report(
   answer: ReturnType<typeof send>,
-  errors: readonly ErrorInfo[] = [],
+  ids: readonly string[] = [],
   wanted: readonly GenerateOne[] = [],
 ): Promise<boolean> {
   set({ outcome: null, told: null });
   const { ok, message, near } = await answer;
-  const ids = errors.map((error) => error.id);
   const raised = usePlc.getState().errors;
   const named = (near ?? []).map(idOf);
   const present = ok ? [] : named.filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");

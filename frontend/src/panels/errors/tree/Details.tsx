@@ -21,6 +21,7 @@ import { Preview } from "./Preview";
 import { ReactionView } from "./ReactionView";
 import { RequiredLines } from "./RequiredLines";
 import { ShapeFields } from "./ShapeFields";
+import { Ticked, TickedPreview, useOthersTicked } from "./Ticked";
 
 /** The selected error, or the instance of it that `of` names: what it means, which flags and words show it, what can be chosen before it is raised, and how the program reacted. */
 export function Details({ error, of }: { error: ErrorInfo; of: string }) {
@@ -36,6 +37,7 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
   const refused = troubles(error, entries);
   const wanted = { id: error.id, details: wireDetails(error, entries) };
   const fitted = useFitted(error, wanted);
+  const ticked = useOthersTicked(wanted);
   return (
     <section className="edetail" aria-label={t("errors.details")}>
       <Heading error={error} />
@@ -72,7 +74,8 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
       {row?.reaction && <ReactionView error={error} of={keyOf(row)} state={row.reaction} />}
       {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
       <RequiredLines key={error.id} error={error.id} />
-      {present ? (
+      {ticked && <Ticked name={error.name} />}
+      {present && !ticked ? (
         <details className="again" open={!plain}>
           <summary>{t("shape.again")}</summary>
           <ShapeFields />
@@ -80,8 +83,9 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
       ) : (
         <ShapeFields />
       )}
-      {(fitted || error.absent) && (!present || (edited && needsDetails(error))) && (
-        <Preview errors={[error]} valid={refused.size === 0} again={raised !== null} now={plain} anyway={!fitted} />
+      {ticked && <TickedPreview now={plain} />}
+      {!ticked && (fitted || error.absent) && (!present || (edited && needsDetails(error))) && (
+        <Preview wanted={[wanted]} valid={refused.size === 0} again={raised !== null} now={plain} anyway={!fitted} />
       )}
     </section>
   );

@@ -4,7 +4,15 @@ import { inNames } from "../../../logic/errors/catalogue";
 import { type Entry, kindred, needsDetails, takenOver, troubles } from "../../../logic/errors/details";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { useShape } from "../../../store/errors/shape";
-import { closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../../store/errors/simulator";
+import {
+  closeDialog,
+  entriesOf,
+  instancesOf,
+  raise,
+  setEntries,
+  useSimulator,
+  wantedNow,
+} from "../../../store/errors/simulator";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Dialog } from "../../../ui/Dialog";
@@ -20,7 +28,12 @@ import { WayOn } from "./WayOn";
 
 /** Details of several errors, a page for each that needs some; then all are raised in one seam, or one by one. */
 export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
-  const state = useSimulator(useShallow(({ details }) => ({ details })));
+  const state = useSimulator(
+    useShallow(({ details, checked, selected, filter, status, severity, reaction }) => ({
+      ...{ details, checked, selected },
+      ...{ filter, status, severity, reaction },
+    })),
+  );
   const shape = useShape();
   const history = usePlc((plc) => plc.errors);
   const forbidden = useForbidden("errors");
@@ -39,6 +52,9 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   const scans = gapOf(gap);
   const ready = forbidden === null && !errors.some(bad) && shape.ready && scans !== null;
   const { plain } = shape;
+  // Ticked instances have their details, and are raised together with the others.
+  const single = instancesOf(state);
+  const count = errors.length + single.length;
 
   function goTo(next: number): void {
     if (error) setSeen(new Set([...seen, error.id]));
@@ -67,7 +83,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   }
 
   async function submit(): Promise<void> {
-    if (ready && (await raise(errors, { gap: scans ?? 0 }))) closeDialog();
+    if (ready && (await raise(errors, { gap: scans ?? 0, single }))) closeDialog();
   }
 
   const stateOf = (of: ErrorInfo): PageState => {
@@ -78,13 +94,13 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   return (
     <Dialog
       title={t("errors.details")}
-      about={about(needing.length, errors.length)}
+      about={about(needing.length, count)}
       width={800}
       onClose={closeDialog}
       onSubmit={() => void submit()}
       footer={
         <>
-          <Gap form={gap} several={errors.length > 1} onForm={setGap} />
+          <Gap form={gap} several={count > 1} onForm={setGap} />
           <span className="grow" />
           <button type="button" className="btn quiet" onClick={closeDialog}>
             {t("cancel")}
@@ -100,9 +116,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
             </>
           )}
           <button type="submit" className="btn primary" disabled={!ready} title={forbidden ?? undefined}>
-            {plain
-              ? t("errors.generate.many", { count: errors.length })
-              : t("errors.arm.many", { count: errors.length })}
+            {plain ? t("errors.generate.many", { count }) : t("errors.arm.many", { count })}
           </button>
         </>
       }
@@ -119,7 +133,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
             onEntry={change}
             onSame={toggleSame}
           />
-          <Preview errors={errors} of={error.id} valid={!errors.some(bad)} now={plain} />
+          <Preview wanted={wantedNow(state, errors)} of={error.id} valid={!errors.some(bad)} now={plain} />
         </div>
       </div>
       <ShapeFields />

@@ -7,9 +7,10 @@ import { button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { ArmedFault, ErrorHistoryRow, PreviewedErrors, Reaction } from "../../../wire/types";
+import type { ArmedFault, ErrorHistoryRow, ErrorInfo, ModelInfo, PreviewedErrors, Reaction } from "../../../wire/types";
 import { ErrorsPanel } from "./ErrorsPanel";
 
+const FLAG = { address: "A402.12", before: "0", after: "1", what: "flag", error: BASIC.id } as const;
 const PREVIEW: PreviewedErrors = { ok: true, message: "", scan: 1001, more: 0, writes: [] };
 
 async function openSimulator(prepare: (server: FakeServer) => void = () => undefined) {
@@ -153,6 +154,82 @@ test("of two units of a kind that are raised, the details are those of the chose
   await waitFor(() => expect(textOf(details())).not.toContain("ofThree"));
 });
 
+test("while a row is ticked and a different one is shown, it is said what the buttons raise, and the writes are of that", async () => {
+  const { server, user } = await openSimulator((server) =>
+    server.on("POST", "/instances/*/errors/preview", ({ body }) => {
+      const of = body.errors.map(({ id }) => id);
+      return { ...PREVIEW, writes: of.map((error) => ({ ...FLAG, error, address: error })) };
+    }),
+  );
+  await user.click(tick(MEMORY.name));
+  await user.click(line(BATTERY.name));
+  await waitFor(() => expect(textOf(details())).toContain(t("errors.ticked", { names: MEMORY.name })));
+  const preview = () => within(details()).getByRole("region", { name: t("preview.title") });
+  await waitFor(() => expect(textOf(preview())).toContain(MEMORY.id));
+  expect(textOf(preview())).toContain(MEMORY.name);
+  expect(textOf(preview())).not.toContain(BATTERY.id);
+  await user.click(button(t("errors.ticked.only", { name: BATTERY.name })));
+  expect(textOf(details())).not.toContain(t("errors.ticked", { names: MEMORY.name }));
+  expect(tick(MEMORY.name).checked).toBe(false);
+  await waitFor(() => expect(textOf(preview())).toContain(BATTERY.id));
+  await user.click(generate());
+  await waitFor(() => expect(server.sentOf("generate")).toMatchObject([{ errors: [{ id: BATTERY.id }] }]));
+});
+
+const FITTED = { ...CATALOGUE, hardware: true };
+const withUnits = (identifies: "one" | "several"): ModelInfo => ({
+  ...FITTED,
+  catalogue: FITTED.catalogue?.map((group) => ({
+    ...group,
+    errors: group.errors.map((error) => ({
+      ...error,
+      details: error.details.map((detail) => ({ ...detail, identifies })),
+    })),
+  })),
+});
+
+test("of the ticked units of a kind that can be present only once, which one is asked, and the others of the group are raised with it", async () => {
+  const { server, user } = await openSimulator((server) =>
+    server.on("GET", "/instances/*/model", () => withUnits("one")),
+  );
+  server.say({ type: "errors", whole: false, rows: [unit(3, {}), unit(5, {})] });
+  await waitFor(() => tick(`${BASIC.name}, Rack number 0, Slot number 5`));
+  await user.click(tick("Units"));
+  await user.click(button(t("errors.generate.asks", { count: 1 })));
+  const dialog = await screen.findByRole("dialog");
+  await user.click(within(dialog).getByRole("button", { name: t("errors.generate.many", { count: 1 }) }));
+  await waitFor(() =>
+    expect(server.sentOf("generate")).toMatchObject([
+      { errors: [{ id: BASIC.id, details: { rack: "0", slot: "3" } }] },
+    ]),
+  );
+});
+
+test("ticked units are raised together with what the dialog asks for", async () => {
+  const other: ErrorInfo = { ...BASIC, id: "other-error", name: "Other error" };
+  const model = withUnits("several");
+  const { server, user } = await openSimulator((server) =>
+    server.on("GET", "/instances/*/model", () => ({
+      ...model,
+      catalogue: [...(model.catalogue ?? []), { name: "Others", errors: [other], groups: [] }],
+    })),
+  );
+  server.say({ type: "errors", whole: false, rows: [unit(3, {}), unit(5, {}), row(other)] });
+  await waitFor(() => tick(`${BASIC.name}, Rack number 0, Slot number 5`));
+  await user.click(tick("Units"));
+  await user.click(tick("Others"));
+  await user.click(button(t("errors.generate.asks", { count: 3 })));
+  const dialog = await screen.findByRole("dialog");
+  await user.click(within(dialog).getByRole("button", { name: t("errors.generate.many", { count: 3 }) }));
+  await waitFor(() =>
+    expect(server.sentOf("generate")).toMatchObject([
+      {
+        errors: [{ id: other.id }, { id: BASIC.id, details: { slot: "3" } }, { id: BASIC.id, details: { slot: "5" } }],
+      },
+    ]),
+  );
+});
+
 test("for some scans: a number that is none arms nothing; armed, the next error is an ordinary one again", async () => {
   const { server, user } = await openSimulator();
   await user.click(line(BATTERY.name));
@@ -187,9 +264,8 @@ test("what comes and goes is listed with how often, by whom and when next, until
 });
 
 test("while one chatters, it is said what another one would write", async () => {
-  const flag = { address: "A402.12", before: "0", after: "1", what: "flag", error: BASIC.id } as const;
   const { server, user } = await openSimulator((server) =>
-    server.on("POST", "/instances/*/errors/preview", () => ({ ...PREVIEW, writes: [flag] })),
+    server.on("POST", "/instances/*/errors/preview", () => ({ ...PREVIEW, writes: [FLAG] })),
   );
   server.say({ type: "armed", faults: [fault({ text: "chatters" })] });
   await user.click(line(BASIC.name));

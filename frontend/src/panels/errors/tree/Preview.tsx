@@ -3,14 +3,14 @@ import { inNames } from "../../../logic/errors/catalogue";
 import { grouped } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { usePreview } from "../../../store/errors/preview";
-import { asWanted, useSimulator } from "../../../store/errors/simulator";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
-import type { ErrorInfo, PreviewedWrite } from "../../../wire/types";
+import type { GenerateOne, PreviewedWrite } from "../../../wire/types";
 
 interface Props {
-  errors: readonly ErrorInfo[];
+  /** What would be raised. */
+  wanted: readonly GenerateOne[];
   /** Of several errors, the one whose page is open: its writes come first. */
   of?: string;
   /** False while an entry is refused: then nothing is requested. */
@@ -20,20 +20,20 @@ interface Props {
   now?: boolean;
   /** Although it is not fitted. */
   anyway?: boolean;
+  /** Each write says which error it is of. */
+  named?: boolean;
 }
 
 /** What raising these errors would write, address by address. */
-export function Preview({ errors, of, valid, again = false, now = true, anyway = false }: Props) {
-  // Different details need a new preview.
-  useSimulator((state) => state.details);
+export function Preview({ wanted, of, valid, again = false, now = true, anyway = false, named = false }: Props) {
   // A preview of writes from now on says nothing about a scan in the past.
   const past = usePlc((plc) => Boolean(plc.state?.past));
-  const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again, anyway);
+  const { preview, refused } = usePreview(valid && !past ? wanted : null, again, anyway);
   const { errors: known } = useCatalogue();
   // While the PLC runs, the scan number is over before anybody reads it.
   const running = usePlc((plc) => plc.state?.state === "running");
   const [all, setAll] = useState(false);
-  const several = of !== undefined && errors.length > 1;
+  const several = of !== undefined && wanted.length > 1;
   const writes = preview?.writes ?? [];
   const shown = several && !all ? writes.filter((write) => write.error === of || write.error === "") : writes;
   if (past) return null;
@@ -48,7 +48,7 @@ export function Preview({ errors, of, valid, again = false, now = true, anyway =
               {t("preview.one")}
             </button>
             <button type="button" className={all ? "on" : ""} aria-pressed={all} onClick={() => setAll(true)}>
-              {t("preview.all", { count: errors.length })}
+              {t("preview.all", { count: wanted.length })}
             </button>
           </span>
         )}
@@ -69,7 +69,11 @@ export function Preview({ errors, of, valid, again = false, now = true, anyway =
           {shown
             .filter((write) => write.what !== "log")
             .map((write) => (
-              <Write key={`${write.address} ${write.error} ${write.what}`} write={write} named={several && all} />
+              <Write
+                key={`${write.address} ${write.error} ${write.what}`}
+                write={write}
+                named={named || (several && all)}
+              />
             ))}
           <LogWrites writes={shown.filter((write) => write.what === "log")} />
         </div>
