@@ -38,8 +38,7 @@ def replay(
     """Replay a run and compare it with every checkpoint in it.
 
     Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different;
-    4: the file is damaged, and all that can still be read was the same; 130: interrupted, the same so far. A last write
-    that did not come to its end, as after a kill, is no damage.
+    4: the file is damaged, and all that can still be read was the same; 130: interrupted, the same so far.
     """
 
     must_be_writable(junit)

@@ -64,7 +64,7 @@ def _put_aside(file: RunFile, damage: Damage, last_scan: int, read_only: bool) -
         file.cut(damage.offset, aside)
         where = f"moved to {aside.name}"
     if damage.torn:
-        text = f"{name} ended in the middle of a block, at byte {damage.offset}: its last write did not come to its end"
+        text = f"{name} ended in the middle of a block, at byte {damage.offset}: its last write did not come to its end, or the file was cut off"
     else:
         text = f"{name} is damaged at byte {damage.offset}"
     text += f". Everything before it was recovered, up to scan {last_scan}"

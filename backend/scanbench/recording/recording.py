@@ -128,8 +128,8 @@ class Recording:
         """What was found damaged; whether that is its end, and more than the last write."""
         self.lost = ends_early or bool(found.gaps)
         """Whether scans or commands are lost that it held."""
-        self.damaged = self.lost or file.mended is not None
-        """Whether there is damage, other than a last write that did not come to its end."""
+        self.damaged = self.lost or file.mended is not None or file.damage is not None
+        """Whether there is any damage. A file that ends in the middle of a block may have been cut off: nobody knows what came after."""
         self._repeat: list[tuple[Kind, bytes]] = []
         """Written once more after the next state, so that no damaged block costs the whole run."""
         self._programs, self._read = found.programs, found.entries
@@ -335,7 +335,7 @@ class Recording:
         self.damage = flaws(file, reader.found, read_only=True)
         self.ends_early = file.damage is not None and not file.damage.torn
         self.lost = self.ends_early or bool(self.gaps)
-        self.damaged = self.lost or file.mended is not None
+        self.damaged = self.lost or file.mended is not None or file.damage is not None
         return entries
 
     def before(self, scan: int) -> Checkpoint | None:
