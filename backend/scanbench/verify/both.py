@@ -238,7 +238,10 @@ class Both:
         known = _explained(passes, other) if different else set()
         left = [at for at in different if at not in known]
         if left:
-            rows[-1] = _with(rows[-1], *self._outside(ran.view, scan, left, control.memory, monitor.memory))
+            # what differs already comes first: an instance that came out right is not marked for it
+            at = next((number for number, each in enumerate(rows) if each.differs), len(rows) - 1)
+            told = self._outside(ran.view, scan, left, control.memory, monitor.memory, rows[at].differs)
+            rows[at] = _with(rows[at], *told)
         return rows
 
     def different(
@@ -262,15 +265,17 @@ class Both:
         ]
 
     def _outside(
-        self, view: View, scan: int, found: Sequence[int], control: bytes | bytearray, monitor: bytes | bytearray
+        self, view: View, scan: int, found: Sequence[int], control: bytes | bytearray, monitor: bytes | bytearray, after: bool
     ) -> list[Mismatch]:  # fmt: skip
-        """Variables that the range does not use."""
+        """Variables that the range does not use. `after` something that it does: a violation then kept what was different."""
+        layout = self.control.side.resource.program.layout
         made = []
         for leaf in self.leaves(view, found, control, monitor):
             was, right = _cut(leaf, control), _cut(leaf, monitor)
             one, other = values(leaf, was, right)
             text = f"{leaf.name} is {one}, the reference gives {other}, after scan {scan}"
-            made.append(mismatch("outside", leaf, was, right, None, text))
+            kept = after and layout.violations and leaf.offset >= layout.violations
+            made.append(mismatch("logic" if kept else "outside", leaf, was, right, None, text))
         return made
 
     @staticmethod
