@@ -87,7 +87,7 @@ class Target:
         value = int.from_bytes(parse_value(self.type, text), "little", signed=self.type.signed)
         if self.type.low <= value <= self.type.high:
             return ""
-        return f", outside of {self.type.low} to {self.type.high}: the program finds it where it next reads the variable, and limits it there"
+        return f", outside of {self.type.low} to {self.type.high}: where the program reads the variable before it writes it, it finds that, and limits the value"
 
 
 def shown(through: str, symbol: Symbol) -> str:

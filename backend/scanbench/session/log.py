@@ -73,6 +73,8 @@ class Log:
 
     def on_state(self, before: str, state: PlcState) -> None:
         """The PLC's state changed."""
+        for entry, text in self._tool_writes.due():
+            self._add(_line_of(entry, text))
         if state.state != before and "silent" in (state.state, before):
             text = state.message if state.state == "silent" else "the PLC's process answers again"
             if state.state in ("silent", *LIVING):
@@ -94,8 +96,7 @@ class Log:
 
     def _line(self, entry: Entry) -> LogEntry | None:
         text = self._tool_writes.text(entry)
-        command = entry.command
-        return None if text is None else LogEntry(entry.at, entry.scan, command.author, text, command.category)
+        return None if text is None else _line_of(entry, text)
 
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the log."""
@@ -117,3 +118,7 @@ class Log:
             if (each.site, each.instance) not in before:
                 text = f"{each}, {each.span.file}:{each.span.line}"
                 self.add("PLC", text, "system", each.first_scan)
+
+
+def _line_of(entry: Entry, text: str) -> LogEntry:
+    return LogEntry(entry.at, entry.scan, entry.command.author, text, entry.command.category)

@@ -12,13 +12,13 @@ _AUTHORS_KEPT = 256
 
 
 class ToolWrites:
-    """Of each client a line now and then; all of its writes are in the run."""
+    """Of each client a line now and then, and one about the last of what it wrote; all of its writes are in the run."""
 
     def __init__(self) -> None:
         self._told: dict[str, int] = {}
         """When a line about this client was told last."""
-        self._since: dict[str, int] = {}
-        """Writes since then that nobody was told of."""
+        self._untold: dict[str, tuple[Entry, int]] = {}
+        """Its last write since then, and how many others before that one nobody was told of."""
 
     def text(self, entry: Entry) -> str | None:
         """What the log says of an entry; None: nothing now."""
@@ -27,13 +27,32 @@ class ToolWrites:
         if isinstance(entry.command, NetworkAnswer) and entry.command.end:
             return entry.plan.message
         author, now = entry.command.author, monotonic_ns()
+        more = self._more(author)
         if now - self._told.get(author, -_EVERY_NS) < _EVERY_NS:
-            self._since[author] = self._since.get(author, 0) + 1
+            self._untold[author] = entry, more
             return None
+        return self._tell(entry, more, now)
+
+    def due(self) -> list[tuple[Entry, str]]:
+        """The last writes of clients that have written nothing since, and what the log says of them now."""
+        if not self._untold:
+            return []
+        now = monotonic_ns()
+        quiet = [author for author in self._untold if now - self._told.get(author, -_EVERY_NS) >= _EVERY_NS]
+        found = [self._untold[author] for author in quiet]
+        return [(entry, self._tell(entry, more, now)) for entry, more in found]
+
+    def _more(self, author: str) -> int:
+        """Writes of this client that nobody was told of yet."""
+        untold = self._untold.get(author)
+        return 0 if untold is None else untold[1] + 1
+
+    def _tell(self, entry: Entry, more: int, now: int) -> str:
+        author = entry.command.author
         if len(self._told) >= _AUTHORS_KEPT:
             self._told.clear()
         self._told[author] = now
-        more = self._since.pop(author, 0)
+        self._untold.pop(author, None)
         if not more:
             return entry.plan.message
         if isinstance(entry.command, NetworkRequest | NetworkAnswer):

@@ -153,7 +153,7 @@ def test_a_write_that_a_subrange_does_not_have_is_done_and_said(engine: EngineFa
     assert inside.message == "Main.x := 10"
     assert isinstance(outside, Plan)
     assert outside.message.startswith(
-        "Main.x := 11, outside of 0 to 10: the program finds it where it next reads the variable"
+        "Main.x := 11, outside of 0 to 10: where the program reads the variable before it writes it, it finds that"
     )
     done(resource, Write("Ada", "Main.x", "11"))
     resource.run(1)
