@@ -6,9 +6,9 @@ there are the same bytes, and whoever releases one of them would release the oth
 """
 
 import struct
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from functools import cached_property
 from typing import ClassVar, TypeVar
 
 from scanbench.program.layout import Layout
@@ -18,7 +18,7 @@ from scanbench.runtime.command import Category, Command, Effect, Entry, Patch, P
 from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.target import Meant, Naming, everywhere, find, meant, writable_target
+from scanbench.runtime.target import Meant, Naming, Target, everywhere, find, meant, writable_target
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value
 
@@ -27,7 +27,6 @@ _COUNT = struct.Struct("<I")
 Known = TypeVar("Known")
 _SAID = 3
 """Forces that are named, where many are made at once."""
-_NEVER = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,52 +38,127 @@ class Force(Naming):
 
     def plan(self, view: View) -> Plan | Refusal:
         """The new force table, and the value at once, so that a paused PLC shows it."""
+        forced = _Forced(view)
+        done = self.change(view, forced)
+        if isinstance(done, Refusal):
+            return done
+        return replace(done, patches=(*table_patches(view, forced.table), *done.patches))
+
+    def change(self, view: View, forced: "_Forced") -> Plan | Refusal:
+        """Forces it there, and gives the value at once."""
         refusal = self.unsettled(view)
         if refusal is not None:
             return refusal
-        patch = self.bits(view)
-        if isinstance(patch, Refusal):
-            return patch
-        other = self._held_as(view, patch)
+        target = self._target(view)
+        patch = target if isinstance(target, Refusal) else target.patch(self.value)
+        if isinstance(target, Refusal) or isinstance(patch, Refusal):
+            return target if isinstance(target, Refusal) else patch
+        other = forced.other(self, _bits_of(patch))
         if other is not None:
             return Refusal(f"{self.path} is forced already, as {other.path} by {other.author}: release that first")
         number = holder(view.journal, patch)
         if number:
             return Refusal(f"{self.path} is held by disturbance {number}: take that back first")
-        table = read_table(view.memory)
-        hold(table, patch)
-        if len(table) > Layout.FORCE_LIMIT:
+        forced.hold(self, patch)
+        if len(forced.table) > Layout.FORCE_LIMIT:
             return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
-        target = writable_target(view, self.path, Right.FORCE, self.through)
-        shown = self.path if isinstance(target, Refusal) else target.shown
-        return Plan((*table_patches(view, table), *everywhere(view, patch)), f"{shown} forced to {self.value.strip()}")
+        return Plan(everywhere(view, patch), f"{target.shown} forced to {self.value.strip()}")
 
     def bits(self, view: View) -> Patch | Refusal:
         """Which bits of this image it holds, at which values."""
+        target = self._target(view)
+        return target if isinstance(target, Refusal) else target.patch(self.value)
+
+    def _target(self, view: View) -> Target | Refusal:
         target = writable_target(view, self.path, Right.FORCE, self.through)
-        if isinstance(target, Refusal):
+        if isinstance(target, Refusal) or isinstance(target.type, Elementary):
             return target
-        if not isinstance(target.type, Elementary):
-            return Refusal(f"{target.shown} is a {target.type.name}: only values of up to 8 bytes can be forced")
-        return target.patch(self.value)
+        return Refusal(f"{target.shown} is a {target.type.name}: only values of up to 8 bytes can be forced")
 
-    def _held_as(self, view: View, patch: Patch) -> "Force | None":
+
+class _Forced:
+    """The force table and whose its bits are, as they become while changes are planned. Where the forces are is looked up
+    once, however many changes there are: a communication partner may send hundreds in one frame, between two scans."""
+
+    def __init__(self, view: View) -> None:
+        self.table = read_table(view.memory)
+        self.forces = dict(view.derived(FORCED))
+        self._view = view
+
+    def other(self, force: Force, bits: range) -> Force | None:
         """A force of some of these bits under a different path; None if there is none."""
-        others = (force for force in view.derived(FORCED).values() if _key(force.path) != _key(self.path))
-        first = 8 * patch.offset
-        mine = range(first, first + 8 * len(patch.mask))
-        if patch.mask[0] != 0xFF:
-            bit = patch.mask[0].bit_length() - 1
-            mine = range(first + bit, first + bit + 1)
-        return next((force for force, bits in _held(view, others) if _overlap(mine, bits)), None)
+        mine = _key(force.path)
+        keys = (key for bit in bits for key in self._keys.get(bit, ()) if key != mine)
+        return next((self.forces[key] for key in keys), None)
+
+    def overlapping(self, bits: range) -> list[Force]:
+        """The forces of any of these bits, each once."""
+        keys = dict.fromkeys(key for bit in bits for key in self._keys.get(bit, ()))
+        return [self.forces[key] for key in keys]
+
+    def exactly(self, bits: range) -> Force | None:
+        """The force of these bits and no others."""
+        return next((each for each in self.overlapping(bits) if self._bits[_key(each.path)] == bits), None)
+
+    def hold(self, force: Force, patch: Patch) -> None:
+        """One more, or a different value."""
+        key = _key(force.path)
+        self._forget(key)
+        self.forces[key] = force
+        self._note(key, _bits_of(patch))
+        hold(self.table, patch)
+
+    def release(self, key: str, bits: range) -> None:
+        """Without these bits, and without what was forced under this path."""
+        self._forget(key)
+        self.forces.pop(key, None)
+        for at, bit in (divmod(each, 8) for each in bits):
+            mask, value = self.table.pop(at, (0, 0))
+            keep = mask & ~(1 << bit)
+            if keep:
+                self.table[at] = (keep, value & keep)
+
+    @cached_property
+    def through(self) -> Mapping[str, Force]:
+        """The last one that was entered for an in-out, by its path."""
+        return {_key(each.through): each for each in self.forces.values()}
+
+    @cached_property
+    def _bits(self) -> dict[str, range]:
+        """Where each of them is now, by its path."""
+        found = {key: find(self._view, force.path) for key, force in self.forces.items()}
+        return {key: _bits(self._view, each) for key, each in found.items() if not isinstance(each, Refusal)}
+
+    @cached_property
+    def _keys(self) -> dict[int, list[str]]:
+        """By bit of the image."""
+        keys: dict[int, list[str]] = {}
+        for key, bits in self._bits.items():
+            for bit in bits:
+                keys.setdefault(bit, []).append(key)
+        return keys
+
+    def _note(self, key: str, bits: range) -> None:
+        if "_keys" not in vars(self):
+            return
+        self._bits[key] = bits
+        for bit in bits:
+            self._keys.setdefault(bit, []).append(key)
+
+    def _forget(self, key: str) -> None:
+        if "_keys" not in vars(self):  # nobody has asked yet
+            return
+        for bit in self._bits.pop(key, ()):
+            self._keys[bit].remove(key)
 
 
-def _held(view: View, forces: Iterable[Force]) -> Iterator[tuple[Force, range]]:
-    """With the bits that each holds."""
-    for force in forces:
-        symbol = find(view, force.path)
-        if not isinstance(symbol, Refusal):
-            yield force, _bits(view, symbol)
+def _bits_of(patch: Patch) -> range:
+    """Counted in bits of the image: of a patch of one bit this one."""
+    first = 8 * patch.offset
+    if patch.mask[0] == 0xFF:
+        return range(first, first + 8 * len(patch.mask))
+    bit = first + patch.mask[0].bit_length() - 1
+    return range(bit, bit + 1)
 
 
 def _bits(view: View, symbol: Symbol) -> range:
@@ -100,15 +174,11 @@ def _bits(view: View, symbol: Symbol) -> range:
     )
 
 
-def _overlap(one: range, other: range) -> bool:
-    return max(one.start, other.start) < min(one.stop, other.stop)
-
-
-def _not_forced(path: str, bits: range, held: list[tuple[Force, range]]) -> Refusal:
+def _not_forced(path: str, bits: range, forced: _Forced) -> Refusal:
     """Nothing is released by the name of something larger or smaller: who forced it goes by the list of forces."""
-    others = [force for force, theirs in held if _overlap(bits, theirs)]
+    others = forced.overlapping(bits)
     if not others:
-        return Refusal(f"{path} is not forced", tuple(force.path for force, _ in held))
+        return Refusal(f"{path} is not forced", tuple(each.path for each in forced.forces.values()))
     shown = ", ".join(f"{force.path} by {force.author}" for force in others[:3]) + (", ..." if len(others) > 3 else "")
     return Refusal(f"{path} is forced as {shown}: release that", tuple(force.path for force in others))
 
@@ -121,44 +191,50 @@ class Release(Command):
 
     path: str | None
 
-    def settled(self, view: View) -> Command:
+    def settled(self, view: View) -> "Release":
         """With the variable that is held: of an in-out the one it is bound to now, else the one it was forced on."""
-        forces = view.derived(FORCED)
-        if self.path is None or _key(self.path) in forces:
+        return self.among(view, _Forced(view))
+
+    def among(self, view: View, forced: _Forced) -> "Release":
+        """The same, of these forces."""
+        if self.path is None or _key(self.path) in forced.forces:
             return self
         now = meant(view, self.path, "")
-        if isinstance(now, Meant) and _key(now.path) in forces:
+        if isinstance(now, Meant) and _key(now.path) in forced.forces:
             return replace(self, path=now.path)
-        once = [force for force in forces.values() if _key(force.through) == _key(self.path)]
-        if once:
-            return replace(self, path=once[-1].path)
+        once = forced.through.get(_key(self.path))
+        if once is not None:
+            return replace(self, path=once.path)
         symbol = find(view, self.path)
-        mine = range(0) if isinstance(symbol, Refusal) else _bits(view, symbol)
-        same = next((force for force, bits in _held(view, forces.values()) if bits == mine), None)
+        same = None if isinstance(symbol, Refusal) else forced.exactly(_bits(view, symbol))
         return self if same is None else replace(self, path=same.path)
 
     def plan(self, view: View) -> Plan | Refusal:
         """The force table without these bits."""
-        refused = may(view.header.mode, Right.FORCE, self.path or "")
+        if self.path is not None:
+            forced = _Forced(view)
+            done = self.change(view, forced)
+            return done if isinstance(done, Refusal) else replace(done, patches=table_patches(view, forced.table))
+        refused = may(view.header.mode, Right.FORCE, "")
         if refused is not None:
             return refused
-        forces = view.derived(FORCED)
-        if self.path is None:
-            count = len(forces)
-            return Plan(table_patches(view, _held_table(view)), f"{count} force{'s' * (count != 1)} released")
+        count = len(view.derived(FORCED))
+        return Plan(table_patches(view, _held_table(view)), f"{count} force{'s' * (count != 1)} released")
+
+    def change(self, view: View, forced: _Forced) -> Plan | Refusal:
+        """Releases the one path there."""
+        assert self.path is not None, "all are released by `plan`"
+        refused = may(view.header.mode, Right.FORCE, self.path)
+        if refused is not None:
+            return refused
         symbol = find(view, self.path)
         if isinstance(symbol, Refusal):
             return symbol
-        mine = _bits(view, symbol)
-        if _key(self.path) not in forces:
-            return _not_forced(symbol.path, mine, [*_held(view, forces.values())])
-        table = read_table(view.memory)
-        for at, bit in (divmod(each, 8) for each in mine):
-            mask, value = table.pop(at, (0, 0))
-            keep = mask & ~(1 << bit)
-            if keep:
-                table[at] = (keep, value & keep)
-        return Plan(table_patches(view, table), f"{symbol.path} released")
+        bits = _bits(view, symbol)
+        if _key(self.path) not in forced.forces:
+            return _not_forced(symbol.path, bits, forced)
+        forced.release(_key(self.path), bits)
+        return Plan((), f"{symbol.path} released")
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,54 +247,39 @@ class ForceSeveral(Command):
 
     def settled(self, view: View) -> Command:
         """Each with the variable that is meant, without releases that mean nothing."""
-        return replace(self, changes=tuple(change for change, _ in self._meant(view)))
+        return replace(self, changes=tuple(self._meant(view, _Forced(view))))
 
     def plan(self, view: View) -> Plan | Refusal:
         """The force table after all of them, and the values at once."""
         refused = may(view.header.mode, Right.FORCE)
         if refused is not None:
             return refused
-        now, patches, said = view, list[Patch](), list[str]()
-        for change, key in self._meant(view):
-            plan = change.plan(now)
+        forced, patches, said = _Forced(view), list[Patch](), list[str]()
+        for change in list(self._meant(view, forced)):
+            plan = change.change(view, forced)
             if isinstance(plan, Refusal):
                 return plan
-            now = _after(now, change, plan)
             said.append(plan.message)
-            if isinstance(change, Force):
-                bits = change.bits(view)
-                assert not isinstance(bits, Refusal), key
-                patches += everywhere(view, bits)
+            patches += plan.patches
         if not said:
             return Plan((), "nothing of it was forced")
         more = len(said) - _SAID
         message = "; ".join(said[:_SAID]) + (f"; and {more} more" if more > 0 else "")
-        return Plan((*table_patches(view, read_table(now.memory)), *patches), message)
+        return Plan((*table_patches(view, forced.table), *patches), message)
 
-    def _meant(self, view: View) -> Iterator[tuple[Force | Release, str]]:
-        held = view.derived(FORCED)
-        forced = set(held)
+    def _meant(self, view: View, forced: _Forced) -> Iterator[Force | Release]:
+        keys = set(forced.forces)
         for change in self.changes:
-            settled = change.settled(view)
+            settled = change.among(view, forced) if isinstance(change, Release) else change.settled(view)
             assert isinstance(settled, Force | Release)
             key = _key(settled.path or "")
             if isinstance(settled, Force):
-                forced.add(key)
-            elif key in forced:
-                forced.remove(key)
+                keys.add(key)
+            elif key in keys:
+                keys.remove(key)
             else:
                 continue
-            yield settled, key
-
-
-def _after(view: View, command: Command, plan: Plan) -> View:
-    """What the one after it finds."""
-    memory, journal = bytearray(view.memory), view.journal.prefix(len(view.journal))
-    for patch in plan.patches:
-        for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
-            memory[at] = memory[at] & ~mask | data & mask
-    journal.append(Entry(view.header.scan, _NEVER, command, plan))
-    return replace(view, memory=memory, journal=journal)
+            yield settled
 
 
 @dataclass(frozen=True, slots=True)
@@ -316,10 +377,24 @@ def _since(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
 
 
 def _folded(known: Mapping[str, Known], entry: Entry, told: Callable[[Force], Known]) -> Mapping[str, Known]:
-    for command in entry.command.changes if isinstance(entry.command, ForceSeveral) else (entry.command,):
-        kept = _kept(known, command, entry.plan.effect)
-        known = {**kept, _key(command.path): told(command)} if isinstance(command, Force) else kept
-    return known
+    command = entry.command
+    if isinstance(command, ForceSeveral):
+        return _after_all(known, command, told) if command.changes else known
+    kept = _kept(known, command, entry.plan.effect)
+    return {**kept, _key(command.path): told(command)} if isinstance(command, Force) else kept
+
+
+def _after_all(known: Mapping[str, Known], several: ForceSeveral, told: Callable[[Force], Known]) -> dict[str, Known]:
+    """One copy for all of them."""
+    made = dict(known)
+    for change in several.changes:
+        if isinstance(change, Force):
+            made[_key(change.path)] = told(change)
+        elif change.path is None:
+            made.clear()
+        else:
+            made.pop(_key(change.path), None)
+    return made
 
 
 def _kept(held: Mapping[str, Known], command: Command, effect: Effect | None) -> Mapping[str, Known]:

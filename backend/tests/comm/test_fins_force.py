@@ -8,10 +8,12 @@ from scanbench.comm.fins.codes import End
 from scanbench.comm.fins.commands import respond
 from scanbench.comm.fins.frame import parse
 from scanbench.recording.journal_roots import journal_roots
-from scanbench.runtime.command import Entry
+from scanbench.runtime import forces, target
+from scanbench.runtime.command import Entry, Refusal, View
 from scanbench.runtime.forces import FORCED, FORCED_SINCE, Force, forced_values
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.resource import Resource
+from scanbench.symbols.symbols import Symbol
 from scanbench.wire.codec import ENTRIES
 from tests.comm.bench import LocalDoor, machine
 
@@ -84,3 +86,32 @@ def test_what_is_forced_outlives_the_time_it_was_entered_in(more: tuple[tuple[st
     found = kept.derived(FORCED)
     assert found == resource.journal.derived(FORCED)
     assert set(found) == {"CIO100.01", *({"CIO100.02"} if not more else set())}
+
+
+def test_what_a_frame_costs_grows_with_its_bits_and_not_with_their_square(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between two scans: what was copied and looked up again for each bit made the PLC wait for seconds."""
+    looked = copied = 0
+    find, prefix = target.find, Journal.prefix
+
+    def counting(view: View, path: str) -> Symbol | Refusal:
+        nonlocal looked
+        looked += 1
+        return find(view, path)
+
+    def copying(journal: Journal, count: int) -> Journal:
+        nonlocal copied
+        copied += 1
+        return prefix(journal, count)
+
+    for module in (target, forces):
+        monkeypatch.setattr(module, "find", counting)
+    monkeypatch.setattr(Journal, "prefix", copying)
+    resource, many = machine(source=SOURCE), 60
+    bits = [f"300{0x64 + each // 16:03x}{each % 16:02x}" for each in range(many)]
+    bits.remove(bit(3))
+    for what in (SET, RESET, RELEASE, RELEASE):
+        looked = copied = 0
+        assert force(resource, *((what, each) for each in bits)) == End.OK
+        assert looked <= 8 * many
+        assert copied == 0
+    assert forced(resource) == {}
