@@ -4,9 +4,11 @@ import asyncio
 
 import pytest
 
+from scanbench.comm.controller.contract import Connection
 from scanbench.comm.fins import ask, tcp_frame
 from scanbench.comm.fins.commands import respond
 from scanbench.comm.fins.frame import parse
+from scanbench.comm.fins.reading import open_fins
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from tests.comm.bench import LocalDoor, machine
@@ -68,3 +70,47 @@ def test_a_client_over_tcp_takes_its_node() -> None:
     assert (message.kind, tcp_frame.asked_node(message.content)) == (tcp_frame.Kind.ASK_NODE, 0)
     with pytest.raises(ask.BadAnswer):
         ask.nodes_of(message)
+
+
+class Counting(asyncio.DatagramProtocol):
+    """A controller that answers each request in a scan of its own, in which every word is the number of this scan."""
+
+    scan = 0
+    asked: list[int]
+
+    def connection_made(self, transport: asyncio.DatagramTransport) -> None:  # type: ignore[override]
+        self.transport, self.asked = transport, []
+
+    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
+        self.scan += 1
+        places = data[12:]
+        self.asked.append(len(places) // 4)
+        words = b"".join(places[at : at + 1] + self.scan.to_bytes(2, "big") for at in range(0, len(places), 4))
+        header = b"\xc0" + data[1:3] + data[6:9] + data[3:6] + data[9:10]
+        self.transport.sendto(header + data[10:12] + b"\0\0" + words, addr)
+
+
+def test_all_words_of_a_variable_are_asked_for_at_once() -> None:
+    async def read() -> tuple[list[str], list[int]]:
+        loop = asyncio.get_running_loop()
+        transport, controller = await loop.create_datagram_endpoint(Counting, local_addr=("127.0.0.1", 0))
+        port = transport.get_extra_info("sockname")[1]
+        nodes = (
+            "D0",
+            *(f"D{10 + 2 * at}:DINT" for at in range(90)),
+            "D0.00",
+            *(f"E0_{4 * at}:LINT" for at in range(45)),
+        )
+        source = await open_fins(Connection(f"fins://127.0.0.1:{port}", nodes=nodes))
+        try:
+            cells = list(await source.read(range(len(nodes))))
+        finally:
+            await source.close()
+            transport.close()
+        return cells, controller.asked
+
+    cells, asked = asyncio.run(read())
+    assert (sum(asked), max(asked)) == (1 + 2 * 90 + 1 + 4 * 45, 159)
+    longs, longer = cells[1:91], cells[92:]
+    assert {divmod(int(each), 0x1_0001) for each in longs} == {(1, 0), (2, 0)}
+    assert {divmod(int(each), 0x1_0001_0001_0001)[1] for each in longer} == {0}

@@ -3,7 +3,7 @@
 import asyncio
 import re
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
@@ -26,6 +26,8 @@ _TYPES = {
     "INT": "<h", "UINT": "<H", "WORD": "<H", "DINT": "<i", "UDINT": "<I", "DWORD": "<I", "REAL": "<f", "LINT": "<q", "ULINT": "<Q",
     "LWORD": "<Q", "LREAL": "<d",
 }  # fmt: skip
+_Place = tuple[str, int]
+"""An area and a word of it."""
 TYPES = (*_TYPES, "BOOL")
 """What can be read."""
 
@@ -35,7 +37,7 @@ class _Item:
     """A variable: its words, and what they mean."""
 
     name: str
-    places: tuple[tuple[str, int], ...]
+    places: tuple[_Place, ...]
     format: str = ""
     bit: int = 0
 
@@ -87,19 +89,17 @@ class FinsSource:
 
     async def read(self, wanted: Sequence[int]) -> Sequence[str]:
         """See `Source`."""
-        items = [self._items[each] for each in wanted]
-        places = list(dict.fromkeys(place for each in items for place in each.places))
-        words: dict[tuple[str, int], int] = {}
-        for at in range(0, len(places), _AT_ONCE):
-            some = places[at : at + _AT_ONCE]
-            words |= zip(some, await self._words(some), strict=True)
-        return [each.cell([words[place] for place in each.places]) for each in items]
+        cells: list[str] = []
+        for items, places in _requests([self._items[each] for each in wanted]):
+            words = dict(zip(places, await self._words(places), strict=True))
+            cells += (each.cell([words[place] for place in each.places]) for each in items)
+        return cells
 
     async def close(self) -> None:
         """See `Source`."""
         self._line.close()
 
-    async def _words(self, places: Sequence[tuple[str, int]]) -> list[int]:
+    async def _words(self, places: Sequence[_Place]) -> list[int]:
         answer = await self._asked(read_places(places))
         if answer.end:
             raise Unreachable(
@@ -135,6 +135,21 @@ class FinsSource:
                 return answer_to(asked, frame)
             except BadAnswer:  # to a question whose time was over
                 continue
+
+
+def _requests(items: Iterable[_Item]) -> Iterator[tuple[list[_Item], list[_Place]]]:
+    """What is asked at once, with its words: all words of an item in one request, as two are answered in different scans."""
+    some: list[_Item] = []
+    places: dict[_Place, None] = {}
+    for each in items:
+        more = places | dict.fromkeys(each.places)
+        if len(more) > _AT_ONCE:
+            yield some, list(places)
+            some, more = [], dict.fromkeys(each.places)
+        some.append(each)
+        places = more
+    if some:
+        yield some, list(places)
 
 
 def _item(text: str) -> _Item:
