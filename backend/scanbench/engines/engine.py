@@ -60,8 +60,9 @@ class Pace:
     period_ns: int
     deadline_ns: int
     late_ns: int = 0
-    """Sum of the lateness of scan starts. A deadline that was moved counts as kept."""
+    """Sum of the lateness of scan starts, each after its deadline as it was before it was moved."""
     worst_ns: int = 0
+    """The most of them."""
     busy_ns: int = 0
     """Sum of the time spent inside scans."""
     scans: int = 0

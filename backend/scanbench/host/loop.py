@@ -57,7 +57,7 @@ class Loop:
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
         self._tick = True
-        self._quit = self._rested = False
+        self._quit, self._rested = False, True
         driven = start.driven or driven_of(timeline)
         self._pacer = Pacer(self.resource.program.interval_ns, driven.speed, driven.paused, start.cpu_percent)
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))

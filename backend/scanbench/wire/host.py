@@ -292,7 +292,7 @@ class PlcState:
     """What a roll back swaps in."""
     late_percent: float = 0.0
     late_us: float = 0.0
-    """Mean lateness of scans since the pace was set; `worst_us` is the most."""
+    """Mean lateness of scans since the pace was set; `worst_us` is the most. A stall is in both."""
     worst_us: float = 0.0
     halt: Halt | None = None
     """Where a debugger halted it; then `state` is `halted` (`past` while that is in the past)."""

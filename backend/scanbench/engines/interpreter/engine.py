@@ -178,7 +178,6 @@ class ReferenceEngine(Engine):
         pace.late_scans += late > pace.period_ns
         if late > max(10 * pace.period_ns, LOST_NS):
             pace.deadline_ns += late
-            late = 0
         pace.late_ns += late
         pace.worst_ns = max(pace.worst_ns, late)
         return True

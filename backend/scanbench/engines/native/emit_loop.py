@@ -122,14 +122,13 @@ start:
   %lost = icmp sgt i64 %lateness, %tolerated
   %from = select i1 %lost, i64 %now, i64 %deadline
   store i64 %from, ptr %deadlineat, align 8
-  %late = sub i64 %now, %from
   %lateat = getelementptr i8, ptr %pace, i64 16
   %sum = load i64, ptr %lateat, align 8
-  %newsum = add i64 %sum, %late
+  %newsum = add i64 %sum, %lateness
   store i64 %newsum, ptr %lateat, align 8
   %worstat = getelementptr i8, ptr %pace, i64 24
   %worst = load i64, ptr %worstat, align 8
-  %newworst = call i64 @llvm.smax.i64(i64 %worst, i64 %late)
+  %newworst = call i64 @llvm.smax.i64(i64 %worst, i64 %lateness)
   store i64 %newworst, ptr %worstat, align 8
   ret i64 %now
 leave:
