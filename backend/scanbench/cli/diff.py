@@ -85,6 +85,7 @@ def _data(found: Divergence) -> dict[str, object]:
     data: dict[str, object] = asdict(found)
     data["changes"] = [] if found.changes is None else [_change(each) for each in found.changes.changes]
     data["count"] = 0 if found.changes is None else found.changes.count
+    data["at_least"] = found.changes is not None and found.changes.at_least
     data["note"] = "" if found.changes is None else found.changes.note
     data["marks"] = [{"first": first, "last": last} for first, last in found.marks]
     return data
@@ -113,7 +114,7 @@ def _text(found: Divergence) -> list[str]:
     if changes is not None and changes.changes:
         lines += [
             "",
-            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} after it:",
+            f"{'at least ' * changes.at_least}{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} after it:",
         ]
         lines += _table(
             [
@@ -144,7 +145,7 @@ def _cases(found: Divergence, lost: bool) -> tuple[Case, Case]:
     same = Case("diff", "the runs are the same", text=text)
     if found.scan is not None:
         same = Case("diff", same.name, "failure", f"after scan {found.scan}: {found.text}", found.cause, text)
-    elif found.same == "nothing":
+    elif found.same == "nothing" or lost:
         same = Case("diff", same.name, "skipped", found.text)
     why = [found.text] * (found.same in ("nothing", "partly"))
     why += ["a file is damaged, and a part of its run is lost"] * lost

@@ -23,7 +23,7 @@ from scanbench.symbols.values import format_value, python_value
 MAX_ENTRIES = 1_000
 """Entries in between that are listed."""
 _MOST = 50_000
-"""Words of two bytes that are looked at: more are only said to be more."""
+"""Words of two bytes that are looked at; of more `Changes.at_least` says so."""
 Bytes = NDArray[np.uint8]
 
 
@@ -78,10 +78,10 @@ def find_changes(reader: RunReader, first: int, last: int, other: RunReader | No
         left = len(entries) - MAX_ENTRIES
         note += "; " * bool(note) + f"{left:,} more entries in between are not listed"
         entries = entries[:MAX_ENTRIES]
-    changes, count = Comparer(before, after).changes(before.state, after.state)
-    if len(changes) < count:
-        note += "; " * bool(note) + f"the first {len(changes):,} variables are listed"
-    return Changes(first, last, changes, count, tuple(entries), note)
+    found = Comparer(before, after).changes(before.state, after.state)
+    if len(found.changes) < found.count:
+        note += "; " * bool(note) + f"the first {len(found.changes):,} variables are listed"
+    return Changes(first, last, found.changes, found.count, tuple(entries), note, found.at_least)
 
 
 def same_model(one: Program, other: Program) -> None:
@@ -104,6 +104,17 @@ def _between(reader: RunReader, first: int, last: int) -> Iterator[BetweenEntry]
             each.scan < last or (each.scan == last and not each.step)
         ):
             yield BetweenEntry(each.scan, "", each.command.author, entered(each))
+
+
+@dataclass(frozen=True, slots=True)
+class Differing:
+    """Variables that differ."""
+
+    changes: tuple[Change, ...]
+    """The first `MAX_CHANGES`."""
+    count: int
+    at_least: bool
+    """There may be more than `count`: not every place was looked at."""
 
 
 class Comparer:
@@ -133,21 +144,23 @@ class Comparer:
         here, there = (np.frombuffer(each, np.uint64, len(mask)) for each in (one, other))
         return bool(((here ^ there) & mask).any())
 
-    def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> tuple[tuple[Change, ...], int]:
+    def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> "Differing":
         """The first variables that differ, in the order of their places, and the number of all of them."""
-        found = list(self._changed(one, other))
+        halves = self._differing(one, other).view(np.uint16)
+        places: list[int] = np.flatnonzero(halves).tolist()
+        found = list(self._changed(one, other, halves, places[:_MOST]))
         there = self._moved(one, other)
         made = [_change(each, one, there) for each in found[:MAX_CHANGES]]
-        return tuple(made), len(found)
+        return Differing(tuple(made), len(found), len(places) > _MOST)
 
-    def _changed(self, one: bytes | bytearray, other: bytes | bytearray) -> Iterator[Leaf]:
+    def _changed(
+        self, one: bytes | bytearray, other: bytes | bytearray, halves: NDArray[np.uint16], places: list[int]
+    ) -> Iterator[Leaf]:  # fmt: skip
         """As they are in the first program."""
         if self._names is None:
             self._names = KeptNames(self._one, inputs=True)
-        differing = self._differing(one, other)
-        halves = differing.view(np.uint16)
         there, known = self._moved(one, other), set[str]()
-        for index in np.flatnonzero(halves)[:_MOST].tolist():
+        for index in places:
             for leaf in self._names.at(2 * index, int(halves[index])):
                 if leaf.name not in known and _is_different(leaf, one, there):
                     known.add(leaf.name)

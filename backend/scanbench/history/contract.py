@@ -83,6 +83,8 @@ class Changes(Public):
     """What was entered in between; of two runs none."""
     note: str = ""
     """That the program changed in between, say: then variables are compared by their names."""
+    at_least: bool = False
+    """There may be more than `count`: so much differs that not every place was looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +94,7 @@ class NotCompared(Public):
     PUBLIC: ClassVar = "NotComparedVariable"
 
     path: str
-    """The variable, or the program; empty where it is about all of the run."""
+    """The variable, or the program; empty where it is about all variables: scans that are lost."""
     reason: str
     """Which of them has it, or in what the two differ."""
 
@@ -104,10 +106,10 @@ class Divergence(Public):
     PUBLIC: ClassVar = "RunDivergence"
 
     compared: int
-    """Scans, from the first one that both keep."""
+    """Scans. Fewer than from `first` to `last` where the files lost some between them: these are in `left`."""
     first: int
     last: int
-    """The scans that were compared."""
+    """The first and the last scan that was compared."""
     scan: int | None
     """The first scan after which anything differs; None: the two are the same as far as both go."""
     cause: Literal["", "command", "program", "start"]
@@ -123,7 +125,8 @@ class Divergence(Public):
     marks: tuple[tuple[int, int], ...] = ()
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
     same: Literal["", "all", "partly", "nothing"] = ""
-    """Without a difference: all variables were compared, only those that both have, or the programs have none in common."""
+    """Without a difference. all: all variables, in all scans that both have. partly: only variables that both have, or a file is
+    damaged and lost scans. nothing: the programs have no variable in common."""
     variables: int | None = None
     """How many were compared by their names, an array of plain values counts as one; None: one program ran, so all."""
     left: tuple[NotCompared, ...] = ()

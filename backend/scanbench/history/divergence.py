@@ -33,6 +33,9 @@ _CHUNK = 10_000
 """Scans between two looks at both."""
 _LOOKS = 50_000
 """Scans after the first difference that are looked at; more of them only in part."""
+_TOLD = 3
+"""Stretches between gaps that are named."""
+_WHERE = "where they begin"
 OnProgress = Callable[[int, int], None]
 """Scans that are done, and of how many; may raise to end it."""
 
@@ -47,25 +50,91 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
     first, end = max(one.first, other.first), min(one.over, other.over)
     if first >= end:
         raise Unreadable(f"the runs have no scan in common: {_scans(one)}, {_scans(other)}")
-    gaps = [each for reader in (one, other) for each in reader.recording.gaps if first < each.until <= end]
-    first, end, left = _between_gaps(first, end, gaps)
+    within = {
+        (each.first, each.until): each
+        for reader in (one, other)
+        for each in reader.recording.gaps
+        if each.until > first and each.first < end
+    }
+    gaps = [within[each] for each in sorted(within)]
+    stretches = _between_gaps(first, end, gaps)
+    if not stretches:
+        raise Unreadable(f"no scan can be compared that both runs have: {gaps[-1]}")
     try:
-        found = _Comparison(one, other, first, end, on_progress).run()
-        return replace(found, text=f"{found.text}. {left}") if left else found
+        return _compared(one, other, stretches, gaps, on_progress)
     except (Diverged, *NOT_AS_RECORDED) as error:
         raise Unreadable(f"the runs cannot be compared: {error}") from error
 
 
-def _between_gaps(first: int, end: int, gaps: Sequence[Gap]) -> tuple[int, int, str]:
-    """The scans after the last gap, else those before the first one; and which are left out, in words."""
-    if not gaps:
-        return first, end, ""
-    last, earliest = max(gaps, key=lambda each: each.until), min(gaps, key=lambda each: each.first)
-    if last.until < end:
-        return last.until, end, f"Nothing before scan {last.until} was compared: {last}"
-    if first < earliest.first:
-        return first, earliest.first, f"Nothing from scan {earliest.first} on was compared: {earliest}"
-    raise Unreadable(f"no scan can be compared that both runs have: {last}")
+_Stretch = tuple[int, int]
+"""Scans: the first one, and the one after the last."""
+
+
+def _between_gaps(first: int, end: int, gaps: Iterable[Gap]) -> list[_Stretch]:
+    """The scans that can be compared, where commands are lost of one of the runs."""
+    found: list[_Stretch] = []
+    for gap in gaps:
+        if first < gap.first:
+            found.append((first, gap.first))
+        first = max(first, gap.until)
+    return [*found, (first, end)] if first < end else found
+
+
+def _compared(
+    one: RunReader, other: RunReader, stretches: Sequence[_Stretch], gaps: Sequence[Gap], on_progress: OnProgress
+) -> Divergence:  # fmt: skip
+    left_out, only, marks = LeftOut(), list[_Only](), list[tuple[int, int]]()
+    parted: Divergence | None = None
+    count, done = sum(end - first for first, end in stretches), 0
+    for first, end in stretches:
+        so_far = done
+        comparison = _Comparison(
+            one, other, first, end, left_out, lambda now, _, before=so_far: on_progress(before + now, count)
+        )
+        comparison.again = first > stretches[0][0]
+        found = comparison.run()
+        if found is not None:
+            marks += found.marks
+            parted = parted or found
+        only += comparison.only
+        done += end - first
+    result = parted or _same(stretches, only, left_out, bool(gaps))
+    text = result.text
+    if gaps:
+        more = f"; and {len(gaps) - 1:,} more gaps" if len(gaps) > 1 else ""
+        text += f". Not all was compared: {gaps[0]}{more}"
+        left_out.lose(each.lost for each in gaps)
+    left = left_out.found()
+    return replace(
+        result, text=text, marks=tuple(_joined(marks)), compared=count, first=stretches[0][0], last=stretches[-1][1] - 1,
+        variables=left_out.variables, left=left[:MAX_LEFT], left_count=len(left),
+    )  # fmt: skip
+
+
+def _same(stretches: Sequence[_Stretch], only: Sequence["_Only"], left_out: LeftOut, gaps: bool) -> Divergence:
+    count, left = sum(end - first for first, end in stretches), len(left_out.found())
+    first, last = stretches[0][0], stretches[-1][1] - 1
+    which = [f"{begin} to {end - 1}" for begin, end in stretches[:_TOLD]]
+    which += [f"{len(stretches) - _TOLD:,} more stretches"] * (len(stretches) > _TOLD)
+    scans = " and ".join(which)
+    same: Literal["all", "partly", "nothing"] = "partly" if gaps else "all"
+    text = f"the same in all {count:,} scans that {'could be compared' if gaps else 'both have'}, {scans}"
+    if left_out.nothing:
+        same = "nothing"
+        text = (
+            "the programs have no variable in common: only addresses were compared, "
+            f"the same in all {count:,} scans, {scans}"
+        )
+    elif left:
+        same = "partly"
+        text = (
+            f"in what both have they are the same in all {count:,} scans, {scans}; "
+            f"what only one has, or has otherwise, was not compared ({left:,})"
+        )
+    if only:
+        text += f", although {len(only)} commands are only in one of them"
+    told = tuple(each.told for each in only[:MAX_ENTRIES])
+    return Divergence(count, first, last, None, "", text, None, None, told, same=same)
 
 
 def _scans(reader: RunReader) -> str:
@@ -124,19 +193,20 @@ class _Only:
 
 
 class _Comparison:
-    def __init__(self, one: RunReader, other: RunReader, first: int, end: int, on_progress: OnProgress) -> None:
+    again = False
+    """There are scans before these that were compared: a gap is between."""
+
+    def __init__(
+        self, one: RunReader, other: RunReader, first: int, end: int, left_out: LeftOut, on_progress: OnProgress
+    ) -> None:  # fmt: skip
         self._first, self._end, self._on_progress = first, end, on_progress
         self._one, self._other = _Side(one, first), _Side(other, first)
-        self._only = list(_unpaired(self._one.entries, self._other.entries, first, end))
+        self.only = list(_unpaired(self._one.entries, self._other.entries, first, end))
         self._comparers: dict[tuple[int, int], Comparer] = {}
-        self._left_out = LeftOut()
+        self._left_out = left_out
 
-    def run(self) -> Divergence:
-        """Both, up to where they part, and the stretches after that; and what could not be compared."""
-        found, left = self._found(), self._left_out.found()
-        return replace(found, variables=self._left_out.variables, left=left[:MAX_LEFT], left_count=len(left))
-
-    def _found(self) -> Divergence:
+    def run(self) -> Divergence | None:
+        """Both, up to where they part, and the stretches after that; None where they do not."""
         same_model(self._one.resource.program, self._other.resource.program)
         if self._differ():
             scan, begun = self._first, True
@@ -145,7 +215,7 @@ class _Comparison:
         else:
             found = self._part()
             if found is None:
-                return self._same()
+                return None
             scan, begun, changes, marks = found, False, self._changes(found + 1, found + 1), [(found, found)]
         marks = self._stretches(scan if begun else scan + 1, marks)
         return self._told(scan, begun, changes, tuple(marks))
@@ -170,15 +240,15 @@ class _Comparison:
 
     def _changes(self, first: int, last: int) -> Changes:
         comparer = self._comparer()
-        changes, count = comparer.changes(self._one.state, self._other.state)
+        found = comparer.changes(self._one.state, self._other.state)
         note = "" if comparer.same_layout else "different programs run: variables are compared by their names"
-        return Changes(first, last, changes, count, (), note)
+        return Changes(first, last, found.changes, found.count, (), note, found.at_least)
 
     # ---- to where they part ---------------------------------------------------------------------------------------
 
     def _part(self) -> int | None:
         """Runs both to the end of the first scan after which they differ, and gives this scan; None if there is none."""
-        places = sorted({each.entry.scan for each in self._only})
+        places = sorted({each.entry.scan for each in self.only})
         now = self._first
         while now < self._end:
             place = next((each for each in places if each >= now), self._end) if self._equal() else now
@@ -229,7 +299,7 @@ class _Comparison:
 
     def _stretches(self, now: int, marks: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """In which scans they differ."""
-        places = sorted({each.entry.scan for each in self._only})
+        places = sorted({each.entry.scan for each in self.only})
         stride = max(1, (self._end - now) // _LOOKS)
         equal = False
         while now < self._end:
@@ -250,39 +320,20 @@ class _Comparison:
 
     # ---- for people -----------------------------------------------------------------------------------------------
 
-    def _same(self) -> Divergence:
-        count = self._end - self._first
-        last, left = self._end - 1, len(self._left_out.found())
-        same: Literal["all", "partly", "nothing"] = "all"
-        text = f"the same in all {count:,} scans that both have, {self._first} to {last}"
-        if self._left_out.nothing:
-            same = "nothing"
-            text = (
-                "the programs have no variable in common: only addresses were compared, "
-                f"the same in all {count:,} scans, {self._first} to {last}"
-            )
-        elif left:
-            same = "partly"
-            text = (
-                f"in what both have they are the same in all {count:,} scans, {self._first} to {last}; "
-                f"what only one has, or has otherwise, was not compared ({left:,})"
-            )
-        if self._only:
-            text += f", although {len(self._only)} commands are only in one of them"
-        told = tuple(each.told for each in self._only[:MAX_ENTRIES])
-        return Divergence(count, self._first, last, None, "", text, None, None, told, same=same)
-
     def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
-        before = [each for each in self._only if each.entry.scan <= scan and each.entry.command.author != "PLC"]
-        told = [each.told for each in self._only if each.entry.scan <= scan + AFTER]
+        before = [each for each in self.only if each.entry.scan <= scan and each.entry.command.author != "PLC"]
+        told = [each.told for each in self.only if each.entry.scan <= scan + AFTER]
         differ = self._programs_differ(scan)
-        cause: Literal["command", "program", "start"]
-        cause = "command" if before else "program" if differ else "start" if begun else "program"
+        cause: Literal["", "command", "program", "start"] = "command" if before else "program"
+        if begun and not before and not differ:
+            cause = "" if self.again else "start"
         change = changes.changes[0] if changes.changes else None
         place: Place | None = None
         if not begun and change is not None:
             place, change = self._first_write(scan, changes.changes)
         text = _sentence(scan, begun, before[-1:], differ, place, change)
+        if begun and self.again:
+            text = text.replace(_WHERE, "where they can be compared again", 1)
         return Divergence(
             self._end - self._first, self._first, self._end - 1, scan, cause, text, place, _led_by(changes, change),
             tuple(told[-MAX_ENTRIES:]), marks,
@@ -354,7 +405,7 @@ def _sentence(
         what = f"{change.path} is {change.before_shown} in A and {change.after_shown} in B"
     if begun and not before:
         why = ", as different programs run" if differ else ""
-        return f"they are different where they begin, before scan {scan}{why}: {what}"
+        return f"they are different {_WHERE}, before scan {scan}{why}: {what}"
     text = f"before scan {scan} {what}" if begun else f"after scan {scan} {what}"
     if place is not None:
         text += f", written at {place.file}:{place.line} in {place.instance}, task {place.task}"

@@ -1,6 +1,6 @@
 """What a comparison of two runs leaves out: variables that only one program has, or has otherwise."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from scanbench.history.changes import Moment
 from scanbench.history.contract import NotCompared
@@ -10,10 +10,10 @@ from scanbench.runtime.migrate_image import NEW, REMOVED, changes
 
 
 class LeftOut:
-    """Collects it over all pairs of programs that were compared; each path is told once."""
+    """Collects it over all pairs of programs that were compared; each path is told once, with the first reason."""
 
     def __init__(self) -> None:
-        self._found: dict[str, NotCompared] = {}
+        self._found: dict[tuple[str, str], NotCompared] = {}
         self.variables: int | None = None
         """Variables that both programs have, an array of plain values counts as one; the fewest of all pairs. None: one
         program ran in both."""
@@ -44,12 +44,17 @@ class LeftOut:
         self.variables = kept if self.variables is None else min(kept, self.variables)
         self.nothing = self.nothing and kept == 0
 
+    def lose(self, lost: Iterable[str]) -> None:
+        """Stretches of which one of the files lost what was entered, in words."""
+        for each in lost:
+            self._found.setdefault(("", each), NotCompared("", each[:1].lower() + each[1:]))
+
     def found(self) -> tuple[NotCompared, ...]:
         """All of it, in the order in which it was found."""
         return tuple(self._found.values())
 
     def _add(self, path: str, reason: str) -> None:
-        self._found.setdefault(path, NotCompared(path, reason))
+        self._found.setdefault((path, ""), NotCompared(path, reason))
 
 
 def _reason(reason: str) -> str:

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree.ElementTree import parse
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -172,7 +173,7 @@ def test_a_damaged_run_says_what_is_lost(program: str, tmp_path: Path) -> None:
         assert f"is damaged at byte {hit.offset}" in result.output
         assert "Scans 7 to 2999 are lost" in result.output
     differ = call("diff", str(file), str(file.with_name("b.scanrun")))
-    assert "The same in all 7 scans that both have, 0 to 6. Nothing from scan 7 on was compared" in differ.output
+    assert "The same in all 7 scans that could be compared, 0 to 6. Not all was compared: the run file" in differ.output
     file.write_bytes(whole[:20] + b"?" + whole[21:])  # what it is about: there is a second one
     replayed = call("replay", str(file))
     assert replayed.exit_code == 4, replayed.output
@@ -208,10 +209,16 @@ def test_a_gap_is_shown_and_nothing_is_said_of_it(program: str, tmp_path: Path) 
     assert (
         "scans 0 to 59, 50 compared, 10 not compared (10 to 19): no difference in what was compared" in verified.output
     )
-    differ = call("diff", str(file), str(other))
+    report = tmp_path / "diff.xml"
+    differ = call("diff", str(file), str(other), "--junit", str(report))
     assert differ.exit_code == 4, differ.output
-    assert "The same in all 40 scans that both have, 20 to 59" in differ.output
-    assert "Nothing before scan 20 was compared" in differ.output
+    assert "The same in all 50 scans that could be compared, 0 to 9 and 20 to 59. Not all was compared" in differ.output
+    assert "Not compared:\n  scans 10 to 19 are lost" in differ.output
+    same, whole_run = parse(report).getroot().iter("testcase")
+    assert [each.tag for each in same][:1] == ["skipped"], "the same is more than was looked at"
+    assert [each.tag for each in whole_run][:1] == ["error"]
+    told = json.loads(call("diff", "--json", str(file), str(other)).stdout)
+    assert (told["same"], told["compared"]) == ("partly", 50)
 
 
 def timeline_with_states(program: str, file: Path) -> None:

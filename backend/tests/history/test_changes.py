@@ -104,6 +104,15 @@ def test_so_many_that_they_are_not_all_listed(tmp_path: Path, monkeypatch: pytes
     found = _between(timeline.recording.path, 4, 5, 20)
     assert (len(found.changes), found.count) == (2, 7)
     assert "the first 2 variables" in found.note
+    assert not found.at_least
+
+
+def test_more_than_is_looked_at_is_at_least_so_many(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 20)
+    monkeypatch.setattr(changing, "_MOST", 3)
+    found = _between(timeline.recording.path, 4, 5, 20)
+    assert (found.count < 7, found.at_least) == (True, True)
 
 
 def test_what_cannot_be_told(tmp_path: Path) -> None:

@@ -10,14 +10,17 @@ from scanbench.history.bench import Bench
 from scanbench.history.campaign.contract import BadCampaign, CampaignWanted
 from scanbench.history.campaign.trials import Trials
 from scanbench.history.changes import find_changes
+from scanbench.history.contract import Divergence, NotCompared
 from scanbench.history.divergence import find_divergence
 from scanbench.history.scenario_of_run import scenario_of
 from scanbench.history.writer import find_writer
 from scanbench.recording.format import Kind
 from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.runtime.command import Entry
+from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
 from tests.recording.damage import SCANS, whole
-from tests.recording.recorded import COUNTER, SECOND, SourcePrograms, of_file
+from tests.recording.recorded import COUNTER, SECOND, SourcePrograms, advance, begun, of_file
 from tests.recording.test_damage import spoilt
 
 GAP = "Scans 40 to 49 are lost; it can be read again from scan 50 on"
@@ -50,14 +53,51 @@ def test_changes_over_a_gap_say_so(damaged: Path) -> None:
         assert find_changes(reader, 50, 60).note == ""
 
 
-def test_runs_are_compared_after_a_gap_only(damaged: Path, tmp_path: Path) -> None:
+def compared(one: Path, other: Path) -> Divergence:
+    with reading(one) as a, reading(other) as b:
+        return find_divergence(a, b)
+
+
+def test_runs_are_compared_before_and_after_a_gap_and_that_is_not_all(damaged: Path, tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.write_bytes(whole().data)
-    with reading(damaged) as one, reading(other) as two:
-        found = find_divergence(one, two)
-    assert found.scan is None
-    assert f"the same in all {SCANS - 50} scans that both have, 50 to {SCANS - 1}" in found.text
-    assert f"Nothing before scan 50 was compared: the run file is damaged. {GAP}" in found.text
+    found = compared(damaged, other)
+    assert (found.scan, found.same, found.compared) == (None, "partly", SCANS - 10)
+    assert (found.first, found.last) == (0, SCANS - 1)
+    assert f"the same in all {SCANS - 10} scans that could be compared, 0 to 39 and 50 to {SCANS - 1}" in found.text
+    assert f"Not all was compared: the run file is damaged. {GAP}" in found.text
+    assert found.left == (NotCompared("", "scans 40 to 49 are lost"),)
+
+
+@pytest.mark.parametrize("scan", [20, 60])
+def test_a_difference_on_either_side_of_a_gap_is_found(damaged: Path, tmp_path: Path, scan: int) -> None:
+    other = begun(tmp_path / "other")
+    for entry in whole().journal:
+        if entry.scan >= SCANS // 2:
+            break
+        advance(other, entry.scan - other.live_scan)
+        value = "1000" if entry.scan > scan else entry.command.value  # type: ignore[attr-defined]
+        assert isinstance(other.submit(Write("Ada", "Main.other", value)), Entry)
+    advance(other, 2)
+    found = compared(damaged, other.recording.path)
+    first = next(entry.scan for entry in whole().journal if entry.scan > scan)
+    assert (found.scan, found.cause) == (first, "command")
+    assert found.marks[0][0] == first
+    assert found.marks[-1][1] == found.last
+    assert "Not all was compared" in found.text
+
+
+def test_what_differs_after_a_gap_alone_did_not_begin_so(damaged: Path, tmp_path: Path) -> None:
+    other = begun(tmp_path / "other")
+    for entry in whole().journal:
+        if entry.scan >= SCANS // 2:
+            break
+        advance(other, entry.scan - other.live_scan)
+        value = "7" if entry.scan == 45 else entry.command.value  # type: ignore[attr-defined]
+        assert isinstance(other.submit(Write("Ada", "Main.other", value)), Entry)
+    found = compared(damaged, other.recording.path)
+    assert (found.scan, found.cause) == (50, "")
+    assert "they are different where they can be compared again, before scan 50: Main.other is" in found.text
 
 
 def test_a_campaign_does_not_cross_a_gap(damaged: Path, tmp_path: Path) -> None:

@@ -56,7 +56,7 @@ export function ChangesDialog() {
                 <span>{found.note}</span>
               </p>
             )}
-            {found.count === 0 ? (
+            {found.count === 0 && !found.at_least ? (
               <p className="lonely faint">
                 {t("changes.none", { first: grouped(found.first), last: grouped(found.last) })}
               </p>

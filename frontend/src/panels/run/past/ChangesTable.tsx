@@ -40,9 +40,14 @@ export function ChangesTable({ changes, label, heads, writerBefore }: Props) {
         </span>
         <span className="hint" role="status">
           {filter.trim() === ""
-            ? t("changes.count", { count: changes.count })
+            ? t(changes.at_least ? "changes.count.least" : "changes.count", { count: changes.count })
             : t("changes.shown", { shown: shown.length, count: changes.changes.length })}
-          {missing > 0 && <span className="bad"> {t("changes.leftout", { count: missing })}</span>}
+          {missing > 0 && (
+            <span className="bad">
+              {" "}
+              {t(changes.at_least ? "changes.leftout.least" : "changes.leftout", { count: missing })}
+            </span>
+          )}
         </span>
         <span className="grow" />
         <CopyButton

@@ -59,7 +59,7 @@ function Left({ left, count }: { left: RunDivergence["left"]; count: number }) {
       <h3>{title}</h3>
       <ul>
         {left.map(({ path, reason }) => (
-          <li key={path}>
+          <li key={`${path} ${reason}`}>
             {path !== "" && <span className="mono">{path}</span>}
             <span className="grow cut" title={reason}>
               {reason}
