@@ -235,6 +235,14 @@ def _kinds(present: Mapping[str, Active], entry: Entry) -> Mapping[str, Active]:
     return present if after is before else Present(after)
 
 
+def _raised(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
+    command = entry.command
+    return {**known, **{str(ref): entry.scan for ref in command.errors}} if isinstance(command, Generate) else known
+
+
+RAISED: Fold[Mapping[str, int]] = Fold({}, _raised)
+"""Before which scan each instance was raised last, by its text, whether it is still present or not: whoever sees it may have
+something to say of it later."""
 INSTANCES: Fold[Instances] = Fold({}, _step)
 """The instances that are present, by their text, the oldest first: the journal is the only state there is, so a replay knows it
 too."""

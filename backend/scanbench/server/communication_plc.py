@@ -77,6 +77,6 @@ class SessionPlc:
 def _raised(row: ErrorRow) -> RaisedError:
     seen = row.acknowledged
     return RaisedError(
-        row.key, row.name, row.severity == "fatal", row.code, row.details, row.generated_at, row.by or "",
+        row.key, row.name, row.severity == "fatal", row.code, row.details, row.generated_at, row.generated_scan, row.by or "",
         row.status == "generated", row.recovered_at, "" if seen is None else seen.by, "" if seen is None else seen.remark,
     )  # fmt: skip

@@ -50,6 +50,8 @@ class RaisedError:
     """As the model shows it; empty where it has none."""
     details: str
     since: datetime | None
+    scan: int | None
+    """Before which it was raised, the last time; None: nobody knows."""
     by: str
     present: bool
     until: datetime | None

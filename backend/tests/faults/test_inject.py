@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scanbench.faults.acknowledge import Acknowledge
 from scanbench.faults.detect import Detection
 from scanbench.faults.history import History
 from scanbench.faults.inject import ACTIVE, Generate, Recover
-from scanbench.faults.reference import ErrorRef, parse_reference
+from scanbench.faults.reference import ErrorRef, named_reference, parse_reference
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
@@ -269,3 +270,28 @@ def test_history_rows() -> None:
     assert memory.details == "location=io-table-checksum"
     assert memory.recovered_at is not None
     assert rows["fal"].status == "never"
+
+
+def test_an_acknowledgement_is_of_the_time_that_was_seen() -> None:
+    """Between what a client of OPC UA saw and its acknowledgement the error may have come again."""
+    resource = plc("PROGRAM Main VAR n : INT; END_VAR n := n + 1; END_PROGRAM", model_name="CJ1M-CPU13")
+    nothing = resource.submit(Acknowledge("Ada", "battery-error", ""))
+    assert isinstance(nothing, Refusal)
+    assert "was not raised" in nothing.message
+    for scan in (0, 1):
+        assert isinstance(resource.submit(Generate("Ada", (ErrorRef("battery-error"),))), Entry)
+        resource.run(1)
+        assert isinstance(resource.submit(Recover("Ada", ("battery-error",))), Entry), scan
+    late = resource.submit(Acknowledge("Ada", "battery-error", "", raised=0))
+    assert isinstance(late, Refusal)
+    assert "raised again before scan 1: what was acknowledged was raised before scan 0" in late.message
+    assert isinstance(resource.submit(Acknowledge("Ada", "battery-error", "", raised=1)), Entry)
+    assert isinstance(resource.submit(Acknowledge("Ada", "battery-error", "")), Entry)
+
+
+def test_an_acknowledgement_of_one_unit_is_of_that_unit() -> None:
+    resource = plc("PROGRAM Main VAR n : INT; END_VAR n := n + 1; END_PROGRAM", model_name="CJ1M-CPU13")
+    assert isinstance(resource.submit(Generate("Ada", (named_reference("fal:number=5"),))), Entry)
+    assert isinstance(resource.submit(Acknowledge("Ada", "fal:number=5", "", raised=0)), Entry)
+    other = resource.submit(Acknowledge("Ada", "fal:number=6", ""))
+    assert isinstance(other, Refusal)

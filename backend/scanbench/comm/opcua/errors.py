@@ -79,7 +79,7 @@ class Errors:
             alarm = self._alarms[key] = _Alarm(error, await self._generator(key))
         elif alarm.told == error:
             return
-        elif alarm.told.since != error.since:
+        elif (alarm.told.since, alarm.told.scan) != (error.since, error.scan):
             alarm.ids.clear()
         retain = error.present or not error.acknowledged_by
         await self._tell(alarm, error, retain)
@@ -143,7 +143,7 @@ class Errors:
             return Remark(author, alarm.told.key, remark)
         if alarm.told.acknowledged_by:
             return codes.BadConditionBranchAlreadyAcked
-        return Acknowledge(author, alarm.told.key, remark)
+        return Acknowledge(author, alarm.told.key, remark, alarm.told.scan)
 
     async def done(self, command: Command) -> None:
         """A remark was entered: others who have subscribed are told. (Acknowledgements come with the errors.)"""
