@@ -208,6 +208,8 @@ class TraceRecords:
             raise Refused(f"{scans:,} scans cannot be recorded: from 1 to {MAX_SCANS:,}")
         last = live - 1 if last is None else last
         first = max(0, last - scans + 1)
+        if session.state.state == "starting":
+            raise Refused("the PLC is still starting: try again when it runs")
         if not 0 <= last < live:
             raise Refused(f"scan {last:,} is not over yet: the PLC is at scan {live:,}")
         if len(self._retrospectives) >= MAX_AT_ONCE:

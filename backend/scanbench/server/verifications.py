@@ -18,7 +18,7 @@ from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.server.controller_verification import ControllerVerification
 from scanbench.server.going import GoingFiles
 from scanbench.server.kept import readable, unreadable
-from scanbench.server.taken_up import before_it, take_up
+from scanbench.server.taken_up import before_it, ready, take_up
 from scanbench.server.uploads import TraceFile
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.server.verify_rows import Rows, RowsPage
@@ -38,6 +38,8 @@ MOST = 10
 MOST_OPEN = 30
 """With those that are over: their rows are kept in memory."""
 SUFFIX = ".rows"
+STARTING_S = 30.0
+"""So long a PLC may take to start before one begins."""
 _TELL_NS = 200_000_000
 Format = Literal["csv", "json", "html", "junit"]
 _MEDIA: dict[Format, tuple[str, str]] = {
@@ -133,7 +135,12 @@ class Verifications:
         return tuple(each.status for each in self._all.values() if each.session is session)
 
     async def begin(self, session: Session, wanted: VerifyWish, author: str) -> VerificationStatus:
-        """Verifies the run of an instance."""
+        """Verifies the run of an instance: a PLC that is starting, as a new branch is, does not know yet which scans it has."""
+        try:
+            async with asyncio.timeout(STARTING_S):
+                await ready(session)
+        except TimeoutError:
+            raise Refused("the PLC is still starting: try again when it runs") from None
         return await self._begin(session, wanted, None, author)
 
     async def begin_trace(

@@ -1,6 +1,8 @@
 """How many verifications there can be, and which ones give way; without processes."""
 
 import asyncio
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal, cast
 
@@ -11,8 +13,11 @@ from scanbench.server.verifications import Verifications
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.verify.contract import Range
-from scanbench.wire.events import Event, VerificationStatus, VerifyWish
+from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyWish
+from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Refused
+
+RUNNING = PlcState("running", "MONITOR", "", scan=150)
 
 
 class Plc:
@@ -23,12 +28,21 @@ class Plc:
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.log = self
+        self.state = RUNNING
+        self.listeners: list[Callable[[Event], None]] = []
 
     def add(self, _author: str, text: str) -> None:
         self.lines.append(text)
 
-    def tell(self, _event: Event) -> None:
-        pass
+    def tell(self, event: Event) -> None:
+        for each in list(self.listeners):
+            each(event)
+
+    def listen(self, listener: Callable[[Event], None]) -> None:
+        self.listeners.append(listener)
+
+    def ignore(self, listener: Callable[[Event], None]) -> None:
+        self.listeners.remove(listener)
 
 
 class Fake:
@@ -40,7 +54,7 @@ class Fake:
         self.status = VerificationStatus(id, 1, "Ada", wanted, "past", "free", title="whole")
 
     async def begin(self) -> None:
-        pass
+        self.first = self.session.state.scan
 
     async def release(self) -> None:
         assert self.over
@@ -75,5 +89,29 @@ def test_those_that_are_over_give_way_to_new_ones(monkeypatch: pytest.MonkeyPatc
         await begin()
         assert 3 not in made
         assert "verification 3 is forgotten, as others began: whole" in plc.lines
+
+    asyncio.run(run())
+
+
+def test_a_plc_that_is_starting_is_waited_for(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A branch tells at once that it is there, and a moment later at which scan it is."""
+    monkeypatch.setattr(verifications, "Verification", Fake)
+    plc = Plc()
+    all = Verifications(cast(Store, None), tmp_path, tmp_path)
+
+    async def run() -> None:
+        plc.state = replace(RUNNING, state="starting", scan=0)
+        begun = asyncio.create_task(all.begin(cast(Session, plc), VerifyWish(Range(100, 120), "free", 0), "Ada"))
+        await asyncio.sleep(0)
+        assert (len(plc.listeners), len(all._all)) == (1, 0)
+        plc.state = RUNNING
+        plc.tell(StateChanged(RUNNING))
+        made = cast(Fake, all._all[(await begun).id])
+        assert (made.first, plc.listeners) == (150, [])
+        monkeypatch.setattr(verifications, "STARTING_S", 0.0)
+        plc.state = replace(RUNNING, state="starting", scan=0)
+        with pytest.raises(Refused, match="still starting"):
+            await all.begin(cast(Session, plc), VerifyWish(Range(100, 120), "free", 0), "Ada")
+        assert not plc.listeners
 
     asyncio.run(run())
