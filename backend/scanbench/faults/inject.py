@@ -242,7 +242,7 @@ def _raised(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
 
 RAISED: Fold[Mapping[str, int]] = Fold({}, _raised)
 """Before which scan each instance was raised last, by its text, whether it is still present or not: whoever sees it may have
-something to say of it later."""
+something to say of it later. Not for good: a run file that drops its beginning keeps no error for it that is gone."""
 INSTANCES: Fold[Instances] = Fold({}, _step)
 """The instances that are present, by their text, the oldest first: the journal is the only state there is, so a replay knows it
 too."""

@@ -33,9 +33,6 @@ _CHUNK = 10_000
 """Scans between two looks at both."""
 _LOOKS = 50_000
 """Scans after the first difference that are looked at; more of them only in part."""
-_TOLD = 3
-"""Stretches between gaps that are named."""
-_WHERE = "where they begin"
 OnProgress = Callable[[int, int], None]
 """Scans that are done, and of how many; may raise to end it."""
 
@@ -87,10 +84,7 @@ def _compared(
     parted: Divergence | None = None
     count, done = sum(end - first for first, end in stretches), 0
     for first, end in stretches:
-        so_far = done
-        comparison = _Comparison(
-            one, other, first, end, left_out, lambda now, _, before=so_far: on_progress(before + now, count)
-        )
+        comparison = _Comparison(one, other, first, end, left_out, _going_on(on_progress, done, count))
         comparison.again = first > stretches[0][0]
         found = comparison.run()
         if found is not None:
@@ -101,8 +95,8 @@ def _compared(
     result = parted or _same(stretches, only, left_out, bool(gaps))
     text = result.text
     if gaps:
-        more = f"; and {len(gaps) - 1:,} more gaps" if len(gaps) > 1 else ""
-        text += f". Not all was compared: {gaps[0]}{more}"
+        lost = f"Not all was compared: {gaps[0]}"
+        text = f"{text}. {lost}"
         left_out.lose(each.lost for each in gaps)
     left = left_out.found()
     return replace(
@@ -111,24 +105,28 @@ def _compared(
     )  # fmt: skip
 
 
+def _going_on(on_progress: OnProgress, before: int, count: int) -> OnProgress:
+    """After so many scans of other stretches."""
+    return lambda done, _: on_progress(before + done, count)
+
+
 def _same(stretches: Sequence[_Stretch], only: Sequence["_Only"], left_out: LeftOut, gaps: bool) -> Divergence:
     count, left = sum(end - first for first, end in stretches), len(left_out.found())
     first, last = stretches[0][0], stretches[-1][1] - 1
-    which = [f"{begin} to {end - 1}" for begin, end in stretches[:_TOLD]]
-    which += [f"{len(stretches) - _TOLD:,} more stretches"] * (len(stretches) > _TOLD)
-    scans = " and ".join(which)
     same: Literal["all", "partly", "nothing"] = "partly" if gaps else "all"
-    text = f"the same in all {count:,} scans that {'could be compared' if gaps else 'both have'}, {scans}"
+    text = f"the same in all {count:,} scans that both have, {first} to {last}"
+    if gaps:
+        text = f"the same in all {count:,} scans that could be compared, {first} to {last}"
     if left_out.nothing:
         same = "nothing"
         text = (
             "the programs have no variable in common: only addresses were compared, "
-            f"the same in all {count:,} scans, {scans}"
+            f"the same in all {count:,} scans, {first} to {last}"
         )
     elif left:
         same = "partly"
         text = (
-            f"in what both have they are the same in all {count:,} scans, {scans}; "
+            f"in what both have they are the same in all {count:,} scans, {first} to {last}; "
             f"what only one has, or has otherwise, was not compared ({left:,})"
         )
     if only:
@@ -331,9 +329,7 @@ class _Comparison:
         place: Place | None = None
         if not begun and change is not None:
             place, change = self._first_write(scan, changes.changes)
-        text = _sentence(scan, begun, before[-1:], differ, place, change)
-        if begun and self.again:
-            text = text.replace(_WHERE, "where they can be compared again", 1)
+        text = _sentence(scan, begun, self.again, before[-1:], differ, place, change)
         return Divergence(
             self._end - self._first, self._first, self._end - 1, scan, cause, text, place, _led_by(changes, change),
             tuple(told[-MAX_ENTRIES:]), marks,
@@ -397,7 +393,7 @@ def _led_by(changes: Changes, change: Change | None) -> Changes:
 
 
 def _sentence(
-    scan: int, begun: bool, before: Sequence[_Only], differ: bool, place: Place | None, change: Change | None
+    scan: int, begun: bool, again: bool, before: Sequence[_Only], differ: bool, place: Place | None, change: Change | None
 ) -> str:  # fmt: skip
     """All of it in one sentence."""
     what = "nothing that has a name differs"
@@ -405,7 +401,9 @@ def _sentence(
         what = f"{change.path} is {change.before_shown} in A and {change.after_shown} in B"
     if begun and not before:
         why = ", as different programs run" if differ else ""
-        return f"they are different {_WHERE}, before scan {scan}{why}: {what}"
+        if again:
+            return f"they are different where they can be compared again, before scan {scan}{why}: {what}"
+        return f"they are different where they begin, before scan {scan}{why}: {what}"
     text = f"before scan {scan} {what}" if begun else f"after scan {scan} {what}"
     if place is not None:
         text += f", written at {place.file}:{place.line} in {place.instance}, task {place.task}"

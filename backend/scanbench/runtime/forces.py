@@ -50,9 +50,11 @@ class Force(Naming):
         if refusal is not None:
             return refusal
         target = self._target(view)
-        patch = target if isinstance(target, Refusal) else target.patch(self.value)
-        if isinstance(target, Refusal) or isinstance(patch, Refusal):
-            return target if isinstance(target, Refusal) else patch
+        if isinstance(target, Refusal):
+            return target
+        patch = target.patch(self.value)
+        if isinstance(patch, Refusal):
+            return patch
         other = forced.other(self, _bits_of(patch))
         if other is not None:
             return Refusal(f"{self.path} is forced already, as {other.path} by {other.author}: release that first")
@@ -82,7 +84,8 @@ class _Forced:
 
     def __init__(self, view: View) -> None:
         self.table = read_table(view.memory)
-        self.forces = dict(view.derived(FORCED))
+        held: Mapping[str, Force] = view.derived(FORCED)
+        self.forces = dict(held)
         self._view = view
 
     def other(self, force: Force, bits: range) -> Force | None:

@@ -205,9 +205,7 @@ class InstanceState(Wire):
     target: str = Field(description="where a run ends: `scan 4711`, `until Main.count > 3`; or empty: it does not")
     late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
     late_us: float = Field(description="how late scans began, in the mean, since speed was set or the PLC went on")
-    worst_us: float = Field(
-        description="how late the latest of them began; a time in which the PLC stood still is in it"
-    )
+    worst_us: float = Field(description="how late the latest of them began: after a stall, too")
     halt: HaltInfo | None = Field(description="where the debugger halted it, also in the past; null while it runs")
     flavour: str = Field(description="which code runs: empty is the ordinary one, `debug`, `probed`")
     startable: bool = Field(description="false: nothing starts it, `message` says why and what to do")

@@ -32,7 +32,7 @@ from scanbench.faults.device_shapes import (
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
-from scanbench.faults.inject import INSTANCES, RAISED, Generate, Recover
+from scanbench.faults.inject import INSTANCES, Generate, Recover
 from scanbench.faults.line_faults import BROKEN_LINES, BreakLine, BrokenLine, LineFault, MendLine
 from scanbench.faults.network import WAITING, NetworkAnswer, NetworkRequest, PortsReady
 from scanbench.faults.present import Active, Raised
@@ -212,7 +212,7 @@ class Splitter:
 class EntryCodec:
     """How a run file keeps journal entries."""
 
-    folds = (FORCED, INSTANCES, RAISED, TRAPPED, ARMED, NUMBERED, DISTURBED, HELD, WAITING, BROKEN_LINES)
+    folds = (FORCED, INSTANCES, TRAPPED, ARMED, NUMBERED, DISTURBED, HELD, WAITING, BROKEN_LINES)
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""

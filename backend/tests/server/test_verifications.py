@@ -101,7 +101,7 @@ def test_a_plc_that_is_starting_is_waited_for(monkeypatch: pytest.MonkeyPatch, t
 
     async def run() -> None:
         plc.state = replace(RUNNING, state="starting", scan=0)
-        begun = asyncio.create_task(all.begin(cast(Session, plc), VerifyWish(Range(100, 120), "free", 0), "Ada"))
+        begun = asyncio.create_task(all.begin(cast(Session, plc), VerifyWish(Range(), "free", 100, 120), "Ada"))
         await asyncio.sleep(0)
         assert (len(plc.listeners), len(all._all)) == (1, 0)
         plc.state = RUNNING
@@ -111,7 +111,7 @@ def test_a_plc_that_is_starting_is_waited_for(monkeypatch: pytest.MonkeyPatch, t
         monkeypatch.setattr(verifications, "STARTING_S", 0.0)
         plc.state = replace(RUNNING, state="starting", scan=0)
         with pytest.raises(Refused, match="still starting"):
-            await all.begin(cast(Session, plc), VerifyWish(Range(100, 120), "free", 0), "Ada")
+            await all.begin(cast(Session, plc), VerifyWish(Range(), "free", 100, 120), "Ada")
         assert not plc.listeners
 
     asyncio.run(run())

@@ -6162,7 +6162,7 @@ export interface components {
             trap: components["schemas"]["TrapInfo"] | null;
             /**
              * Worst Us
-             * @description how late the latest of them began
+             * @description how late the latest of them began: after a stall, too
              */
             worst_us: number;
         };
@@ -7007,7 +7007,7 @@ export interface components {
         NotComparedVariable: {
             /**
              * Path
-             * @description The variable, or the program; empty where it is about all of the run.
+             * @description The variable, or the program; empty where it is about all variables: scans that are lost.
              */
             path: string;
             /**
@@ -8203,6 +8203,11 @@ export interface components {
          * @description What changed between two moments.
          */
         RunChanges: {
+            /**
+             * At Least
+             * @description There may be more than `count`: so much differs that not every place was looked at.
+             */
+            at_least: boolean;
             /** Changes */
             changes: components["schemas"]["VariableChange"][];
             /**
@@ -8240,7 +8245,7 @@ export interface components {
             changes: components["schemas"]["RunChanges"] | null;
             /**
              * Compared
-             * @description Scans, from the first one that both keep.
+             * @description Scans. Fewer than from `first` to `last` where the files lost some between them: these are in `left`.
              */
             compared: number;
             /**
@@ -8252,7 +8257,7 @@ export interface components {
             first: number;
             /**
              * Last
-             * @description The scans that were compared.
+             * @description The first and the last scan that was compared.
              */
             last: number;
             /**
@@ -8277,7 +8282,8 @@ export interface components {
             place: components["schemas"]["VerifyPlace"] | null;
             /**
              * Same
-             * @description Without a difference: all variables were compared, only those that both have, or the programs have none in common.
+             * @description Without a difference. all: all variables, in all scans that both have. partly: only variables that both have, or a file is
+             *     damaged and lost scans. nothing: the programs have no variable in common.
              * @enum {string}
              */
             same: "" | "all" | "partly" | "nothing";

@@ -78,13 +78,15 @@ class RunChanges(TypedDict):
     """What was entered in between; of two runs none."""
     note: str
     """That the program changed in between, say: then variables are compared by their names."""
+    at_least: bool
+    """There may be more than `count`: so much differs that not every place was looked at."""
 
 
 class NotComparedVariable(TypedDict):
     """What two runs cannot be compared in."""
 
     path: str
-    """The variable, or the program; empty where it is about all of the run."""
+    """The variable, or the program; empty where it is about all variables: scans that are lost."""
     reason: str
     """Which of them has it, or in what the two differ."""
 
@@ -93,10 +95,10 @@ class RunDivergence(TypedDict):
     """Where two runs part first."""
 
     compared: int
-    """Scans, from the first one that both keep."""
+    """Scans. Fewer than from `first` to `last` where the files lost some between them: these are in `left`."""
     first: int
     last: int
-    """The scans that were compared."""
+    """The first and the last scan that was compared."""
     scan: int | None
     """The first scan after which anything differs; None: the two are the same as far as both go."""
     cause: Literal["", "command", "program", "start"]
@@ -112,7 +114,7 @@ class RunDivergence(TypedDict):
     marks: list[list[int]]
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
     same: Literal["", "all", "partly", "nothing"]
-    """Without a difference: all variables were compared, only those that both have, or the programs have none in common."""
+    """Without a difference. all: all variables, in all scans that both have. partly: only variables that both have, or a file is damaged and lost scans. nothing: the programs have no variable in common."""
     variables: int | None
     """How many were compared by their names, an array of plain values counts as one; None: one program ran, so all."""
     left: list[NotComparedVariable]

@@ -108,7 +108,7 @@ class InstanceState(TypedDict):
     late_us: float
     """how late scans began, in the mean, since speed was set or the PLC went on."""
     worst_us: float
-    """how late the latest of them began."""
+    """how late the latest of them began: after a stall, too."""
     halt: HaltInfo | None
     """where the debugger halted it, also in the past; null while it runs."""
     flavour: str

@@ -41,7 +41,7 @@ describe("changes", () => {
   });
 
   it("say how many are not listed", () => {
-    const changes = { first: 1, last: 2, changes: CHANGES, count: 9, entries: [], note: "" };
+    const changes = { first: 1, last: 2, changes: CHANGES, count: 9, entries: [], note: "", at_least: false };
     expect(leftOut(changes)).toBe(7);
   });
 

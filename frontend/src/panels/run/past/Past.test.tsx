@@ -95,7 +95,8 @@ const CHANGES: RunChanges = {
   last: 401,
   note: "",
   changes: [changed("motor", "FALSE", "TRUE"), changed("Main.parts.total", "0", "3")],
-  count: 2,
+  count: 9,
+  at_least: true,
   entries: [{ scan: 301, author: "Ann", run: "", text: "start := TRUE" }],
 };
 
@@ -105,6 +106,9 @@ test("what changed in a stretch: the variables, filtered, and who entered what; 
   const shown = await dialog(t("changes.title", { first: 300, last: 401 }));
   const table = await within(shown).findByRole("table", { name: t("changes.list") });
   await waitFor(() => expect(textOf(table)).toContain("motor"));
+  const counted = textOf(within(shown).getByRole("status"));
+  expect(counted).toContain(t("changes.count.least", { count: 9 }));
+  expect(counted).toContain(t("changes.leftout.least", { count: 7 }));
   const entered = within(shown).getByRole("region", { name: t("changes.entered") });
   for (const said of ["start := TRUE", "Ann"]) expect(textOf(entered).toLowerCase()).toContain(said.toLowerCase());
   await user.type(within(shown).getByRole("searchbox"), "parts.total");

@@ -83,7 +83,8 @@ test("a stretch is selected by keyboard, and its menu asks what changed in it", 
   await user.keyboard("{Shift>}{PageDown}{/Shift}");
   const scans = { first: 500, last: 600 };
   await waitFor(() => expect(textOf(screen.getByRole("status"))).toBe(t("stretch.selected", scans)));
-  server.on("GET", "/instances/*/changes", () => ({ ...scans, changes: [], count: 0, entries: [], note: "" }));
+  const none = { ...scans, changes: [], count: 0, entries: [], note: "", at_least: false };
+  server.on("GET", "/instances/*/changes", () => none);
   await user.keyboard("{Enter}");
   await pick(user, t("stretch.changes", scans));
   const changes = `/instances/${server.instance.id}/changes?first=500&last=601`;
