@@ -158,12 +158,10 @@ class _Commands:
         return any(_within(self._path, each.path) or _within(each.path, self._path) for each in lost)
 
     def _survives(self, entry: Entry, effect: Restarted, place: _Bytes) -> bool:
-        if effect.kind == "cold":
-            return False
         here = self._reader.timeline.resource.header.scan
         self._reader.goto(entry.scan)
         resource = self._reader.timeline.resource
-        kept = retained(resource.program, resource.memory)
+        kept = retained(resource.program, resource.memory, effect.kind)
         self._reader.goto(here)
         return _covered(kept, place)
 

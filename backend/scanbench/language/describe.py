@@ -72,7 +72,7 @@ def _notes(member: Member) -> tuple[str, ...]:
             "in-out by value: a copy, which goes back after the call" if member.copied else "in-out by reference"
         )
     if member.retain:
-        notes.append("retained over a warm restart")
+        notes.append("retained over every restart" if member.persistent else "retained over a warm restart")
     return tuple(notes)
 
 

@@ -231,6 +231,7 @@ class Member:
     """PUBLIC, PROTECTED, PRIVATE or INTERNAL."""
     retain: bool = False
     """RETAIN or PERSISTENT."""
+    persistent: bool = False  # kept over a cold restart, too
     non_retain: bool = False
     """NON_RETAIN: not retained, even where the instance around it is."""
     hidden: bool = False
@@ -239,8 +240,7 @@ class Member:
     """Of an in-out by value: a copy of what was passed, which goes back afterwards, and to which the hidden `actual_name` refers."""
     note: "Member | None" = None
     """The hidden variable beside it that keeps what was written before a check limited it; see `check/body/notes.py`."""
-    output: bool = False
-    """An ARRAY[*] that is declared as VAR_OUTPUT: bound as an in-out, and given as an output."""
+    output: bool = False  # an ARRAY[*] that is declared as VAR_OUTPUT: bound as an in-out, and given as an output
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 

@@ -1,7 +1,8 @@
 """Restart: the program begins again. Scans and virtual time go on, and so does the PLC's clock.
 
 What is retained (warm, power): VAR RETAIN, words of retained areas that the program may write, the device's error log;
-while the model's hold bit is on, words of the other areas too. Input words stay, as the device would read them again at
+while the model's hold bit is on, words of the other areas too. Cold: VAR PERSISTENT alone, as in CODESYS and TwinCAT
+(https://content.helpme-codesys.com/en/CODESYS%204/_c4_cmd_reset_cold.html). Input words stay, as the device would read them again at
 once. All other words of the system begin again, so no error is present after a restart.
 """
 
@@ -12,7 +13,7 @@ from typing import ClassVar
 from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type
+from scanbench.program.types import ArrayType, Kind, Record, Section, Type
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, Restarted, RestartKind, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
@@ -21,7 +22,7 @@ from scanbench.runtime.modes import held, started
 Image = bytes | bytearray | memoryview
 
 _MESSAGES: dict[RestartKind, str] = {
-    "cold": "cold start: everything has its initial value",
+    "cold": "cold start: everything but PERSISTENT variables has its initial value",
     "warm": "warm start: what is retained is kept",
     "power": "power off and on: what is retained is kept",
 }
@@ -60,9 +61,7 @@ def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     """The image after a restart of this kind."""
     image = fresh_image(program, Mode.MONITOR)
     go_on(program, memory, image)
-    if kind == "cold":
-        return image
-    for offset, size in retained(program, memory):
+    for offset, size in retained(program, memory, kind):
         image[offset : offset + size] = memory[offset : offset + size]
     if kind == "warm":
         image[Layout.FORCE_COUNT : Layout.FORCES_END] = memory[Layout.FORCE_COUNT : Layout.FORCES_END]
@@ -71,9 +70,11 @@ def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     return image
 
 
-def retained(program: Program, memory: Image) -> list[tuple[int, int]]:
-    """What a warm restart keeps of this image: offset and size."""
-    return [*_words(program, memory), *_variables(program)]
+def retained(program: Program, memory: Image, kind: RestartKind = "warm") -> list[tuple[int, int]]:
+    """What such a restart keeps of this image: offset and size."""
+    if kind == "cold":
+        return [*_variables(program, True)]
+    return [*_words(program, memory), *_variables(program, False)]
 
 
 def go_on(program: Program, memory: Image, image: bytearray) -> None:
@@ -102,30 +103,31 @@ def _words(program: Program, memory: Image) -> Iterator[tuple[int, int]]:
         yield areas[counter.area.name] + counter.byte, counter.bits // 8
 
 
-def _variables(program: Program) -> Iterator[tuple[int, int]]:
-    """Where the retained variables lie: offset and size."""
+def _variables(program: Program, cold: bool) -> Iterator[tuple[int, int]]:
+    """Where the retained variables lie, or with `cold` the persistent ones: offset and size."""
     if program.layout.globals is not None:
-        yield from _members(program.layout.globals, 0, False)
+        yield from _members(program.layout.globals, 0, False, cold)
     for instance in program.instances:
-        yield from _members(instance.pou.instance, instance.offset, instance.retain)
+        yield from _members(instance.pou.instance, instance.offset, instance.retain and not cold, cold)
 
 
-def _members(record: Record, offset: int, retained: bool) -> Iterator[tuple[int, int]]:
+def _members(record: Record, offset: int, retained: bool, cold: bool) -> Iterator[tuple[int, int]]:
     """`retained` is what the instance is declared as: it holds for members that say nothing else themselves."""
     for member in record.members.values():
         if member.located or member.constant or member.section in (Section.IN_OUT, Section.EXTERNAL):
             continue
         if member.name != TYPE_NUMBER:
             said = member.retain or member.non_retain
-            yield from _value(member.type, offset + member.offset, member, member.retain if said else retained)
+            own = member.persistent if cold else member.retain
+            yield from _value(member.type, offset + member.offset, own, own if said else retained, cold)
 
 
-def _value(type: Type, offset: int, member: Member, retained: bool) -> Iterator[tuple[int, int]]:
+def _value(type: Type, offset: int, own: bool, retained: bool, cold: bool) -> Iterator[tuple[int, int]]:
     if isinstance(type, Record) and type.kind is Kind.BLOCK:
         # a block inside of a retained one behaves as its own type says (IEC 61131-3, 6.5.6)
-        yield from _members(type, offset, retained and member.retain)
+        yield from _members(type, offset, retained and own, cold)
     elif isinstance(type, ArrayType) and isinstance(type.element, Record | ArrayType):
         for index in range(type.count):
-            yield from _value(type.element, offset + index * type.element.size, member, retained)
+            yield from _value(type.element, offset + index * type.element.size, own, retained, cold)
     elif retained:
         yield offset, type.size

@@ -20,6 +20,7 @@ from tests.runtime.bench import ENGINES, plc, value
 
 SOURCE = """
 VAR_GLOBAL RETAIN kept_global : INT := 3; END_VAR
+VAR_GLOBAL PERSISTENT kept_always : INT := 3; END_VAR
 VAR_GLOBAL lost_global : INT := 3; on_d AT D10 : INT := 3; END_VAR
 TYPE Pair : STRUCT a : INT := 3; b : INT; END_STRUCT; END_TYPE
 FUNCTION_BLOCK Inner
@@ -33,22 +34,30 @@ VAR NON_RETAIN never : INT := 3; END_VAR
 VAR RETAIN always : INT := 3; END_VAR
   plain := plain; inner();
 END_FUNCTION_BLOCK
+FUNCTION_BLOCK Kept
+VAR plain : INT := 3; END_VAR
+VAR NON_RETAIN never : INT := 3; END_VAR
+VAR PERSISTENT always : INT := 3; END_VAR
+  plain := plain;
+END_FUNCTION_BLOCK
 PROGRAM Main
 VAR RETAIN n : INT := 3; pair : Pair; list : ARRAY[0..2] OF INT := [3(3)]; c : Counter; cs : ARRAY[1..2] OF Counter; END_VAR
-VAR PERSISTENT p : INT := 3; END_VAR
+VAR PERSISTENT p : INT := 3; pc : Kept; END_VAR
+VAR RETAIN PERSISTENT pr : INT := 3; END_VAR
 VAR m : INT := 3; d : Counter; END_VAR
 VAR NON_RETAIN z : INT := 3; END_VAR
-  c(); d(); cs[1](); m := m;
+  c(); d(); pc(); cs[1](); m := m;
 END_PROGRAM
 """
 RETAINED = (
     "kept_global", "Main.n", "Main.p", "Main.pair.a", "Main.list[1]", "Main.c.plain", "Main.c.always", "Main.c.inner.own",
-    "Main.cs[2].plain", "Main.d.always", "Main.d.inner.own",
+    "Main.cs[2].plain", "Main.d.always", "Main.d.inner.own", "kept_always", "Main.pc.plain", "Main.pc.always", "Main.pr",
 )  # fmt: skip
 INITIAL = (
     "lost_global", "Main.m", "Main.z", "Main.c.never", "Main.c.inner.plain", "Main.d.plain", "Main.d.never", "Main.d.inner.plain",
-    "Main.cs[2].never", "Main.cs[1].inner.plain",
+    "Main.pc.never", "Main.cs[2].never", "Main.cs[1].inner.plain",
 )  # fmt: skip
+PERSISTENT = ("kept_always", "Main.p", "Main.pc.plain", "Main.pc.always", "Main.pr")
 RETAINED_WORDS, VOLATILE_WORDS, SYSTEM_WORDS = ("D20", "H5"), ("W7", "CIO 3000"), ("A400", "A402")
 
 
@@ -79,7 +88,8 @@ def test_a_cold_start_begins_with_nothing_but_time(engine: EngineFactory) -> Non
     resource = used(engine, Force("Ada", "Main.m", "9"), SetClock("Ada", datetime(2024, 2, 28, tzinfo=UTC)))
     epoch = resource.header.epoch_ns
     done(resource, Restart("Ada", "cold"))
-    assert values(resource, *RETAINED, *INITIAL, "on_d") == {3}
+    assert values(resource, *(path for path in RETAINED if path not in PERSISTENT), *INITIAL, "on_d") == {3}
+    assert values(resource, *PERSISTENT) == {77}
     assert values(resource, *RETAINED_WORDS, *VOLATILE_WORDS, *SYSTEM_WORDS, "A300", "CIO 0") == {0}
     assert (resource.header.scan, resource.header.started) == (5, 5)
     assert resource.header.epoch_ns == epoch

@@ -198,7 +198,7 @@ def negative(body: Body, type: Elementary, operand: Expr) -> Expr:
     """`-x`, in as many bits as the dialect has for sums."""
     operand, _ = as_calculated(body, operand, operand)
     type = operand.type if isinstance(operand.type, Elementary) else type
-    if type.kind is Kind.INT and type.size and may(body, Allowance.WIDE_RESULTS):
+    if type.kind in WHOLE and type.size and may(body, Allowance.WIDE_RESULTS):
         return wide.cut(body, type, fold.unary("neg", wide.wide_of(type), wide.sixty_four(body, type, operand)))
     return fold.unary("neg", type, operand)
 

@@ -39,6 +39,7 @@ from scanbench.program.types import (
     DINT,
     ELEMENTARY,
     INT,
+    LINT,
     LTIME,
     MAX_STRING,
     TIME,
@@ -53,6 +54,8 @@ from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 
 TYPED = re.compile(r"([A-Z]+)_([A-Z]+)")
+STANDARD_STRING = 255
+"""Characters of a text in the functions of the vendors' Standard library."""
 LARGEST = {4: 3.4028234663852886e38, 8: 1.7976931348623157e308}
 """The largest finite number of a REAL and an LREAL."""
 
@@ -164,7 +167,7 @@ def _string_function(body: Body, node: tree.Call, name: str, row: StringFunction
             value = standard_fold.intrinsic("CHAR_STR", StringType(1, value.type.size), (value,))
         if not isinstance(value.type, StringType):
             raise body.report.reject("T002", f"`{name}` needs a STRING, not {settle(value).type}.", node.span)
-        args.append(value)
+        args.append(_in_standard(body, node, value))
     strings = [arg.type for arg in args if isinstance(arg.type, StringType)]
     if any(each.width != strings[0].width for each in strings):
         raise body.report.reject(
@@ -175,10 +178,25 @@ def _string_function(body: Body, node: tree.Call, name: str, row: StringFunction
     if row.variadic:
         result = args[0]
         for arg in args[1:]:
-            result = standard_fold.intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
+            joined = standard_fold.intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
+            result = _in_standard(body, node, joined)
         return result
     kept = args[:1] if row.result == "first" else args
-    return standard_fold.intrinsic(row.intrinsic, _capacity(*kept), tuple(args))
+    return _in_standard(body, node, standard_fold.intrinsic(row.intrinsic, _capacity(*kept), tuple(args)))
+
+
+def _in_standard(body: Body, node: tree.Call, text: Expr) -> Expr:
+    """A text as the functions of the vendors' Standard library take and give it: STRING(255).
+
+    https://content.helpme-codesys.com/en/libs/Standard/Current/String-Functions/INSERT.html
+    """
+    if not isinstance(text.type, StringType) or in_library(node.span) or not may(body, Allowance.ARGUMENT_NAMES):
+        return text
+    if text.type.capacity <= STANDARD_STRING:
+        return text
+    return standard_fold.intrinsic(
+        "LEFT", StringType(STANDARD_STRING, text.type.width), (text, Const(LINT, STANDARD_STRING))
+    )
 
 
 def _special(

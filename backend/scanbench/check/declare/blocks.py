@@ -60,6 +60,7 @@ def _variable(
     if member is not None:
         member.access = section.access if kind is Section.VAR else "PUBLIC"
         member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+        member.persistent = "PERSISTENT" in section.qualifiers
         member.non_retain = "NON_RETAIN" in section.qualifiers
 
 

@@ -229,3 +229,4 @@ class _Lists:
         member = declare(self.declarations, variables, variable, Section.GLOBAL, constant)
         if member is not None:
             member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+            member.persistent = "PERSISTENT" in section.qualifiers

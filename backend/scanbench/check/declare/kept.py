@@ -33,6 +33,7 @@ def declare_kept(declared: Declarations, record: Record, method: tree.PouDeclara
                 member = declare(declared, record, replace(variable, name=_name(method, variable)), Section.VAR, False)
                 if member is not None:
                     member.hidden, member.retain = True, bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+                    member.persistent = "PERSISTENT" in section.qualifiers
 
 
 def declare_static(declared: Declarations, variables: Record, pous: Iterable[tree.PouDeclaration]) -> None:

@@ -45,7 +45,7 @@ describe("the states of a run", () => {
   it("are fatal from a run-time error to the restart, the corrected program, or PROGRAM", () => {
     const trap = at(10, "system", "Main.st:9:14: division by zero (scan 10)");
     for (const way of [
-      at(20, "run", "cold start: everything has its initial value"),
+      at(20, "run", "cold start: everything but PERSISTENT variables has its initial value"),
       at(20, "build", "program version 2: warm start, as the old"),
     ])
       expect(tones(trap, way)).toEqual([

@@ -101,7 +101,7 @@ export const plc = {
     "A run-time error stopped the program. Outputs are off, even if memory is held. Correct the program and build; or recover and go on with its variables as they are; or restart cold with initial values.",
   "trap.at": " at ",
   "trap.cold": "Restart (cold)",
-  "trap.cold.hint": "Variables and memory get their initial values; errors are cleared",
+  "trap.cold.hint": "Variables (but PERSISTENT ones) and memory get their initial values; errors are cleared",
   "trap.goon": "Recover and go on",
   "trap.goon.hint": "Recovers the present errors and sets mode MONITOR: variables and program stay as they are",
   "trap.scan": " in scan {scan}.",
@@ -207,7 +207,7 @@ export const plc = {
   "recording.about": "The PLC waits, and nothing can be changed. Free some disk space; the PLC then continues.",
   "recording.title": "The run is not recorded:",
   "restart.cold": "Cold restart",
-  "restart.cold.hint": "all variables get their initial values",
+  "restart.cold.hint": "all variables but PERSISTENT ones get their initial values",
   "restart.menu": "Restart",
   "restart.power": "Power cycle",
   "restart.power.hint":
