@@ -187,7 +187,7 @@ class RefOf:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A subrange check: the value, brought to low..high; a value outside is recorded at `site` (see `Layout.violations`)."""
+    """A subrange check: the value, of `type` or a wider integer, brought to low..high; one outside is recorded at `site` (`Layout.violations`)."""
 
     type: Elementary
     value: "Expr"

@@ -210,7 +210,7 @@ def _bind(
         bound.places[key] = taken
         whole = _generic(member, Load(taken), target.type)
         given = holding(body, output_value(body, whole, target.type, argument), target, argument.span)
-        stored = keeping(given, noting(body, target, variable), argument.span)
+        stored = keeping(body, given, noting(body, target, variable), argument.span)
         bound.after.append(Assign(target, stored, argument.span))
 
 

@@ -76,7 +76,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     if isinstance(target.type, ArrayType | Record):
         return _copy(body, node, target, note, what)
     value = holding(body, as_type(body, node.value, target.type, what), target, node.span)
-    return Assign(target, keeping(value, note, node.span), node.span)
+    return Assign(target, keeping(body, value, note, node.span), node.span)
 
 
 def _combined(body: Body, node: tree.Assignment) -> Stmt:

@@ -132,7 +132,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
             outputs.append((output_value(body, Load(own), taken.type, argument), taken))
             value = coerce(body, Load(taken), target.type, argument.span, f"`{shown(argument.value)}`")
             value = holding(body, value, target, argument.span)
-            after.append(Assign(target, keeping(value, note, argument.span), argument.span))
+            after.append(Assign(target, keeping(body, value, note, argument.span), argument.span))
             continue
         value = output_value(body, Load(own), target.type, argument)
         outputs.append((holding(body, value, target, argument.span), target))
@@ -150,7 +150,7 @@ def _noted_input(body: Body, own: Place, value: Expr, formal: Member, span: Span
     if note is None or not isinstance(formal.type, Subrange):
         return [(own, value)]
     kept = body.temporary(base_of(formal.type), span)
-    return [(own, keeping(value, kept, span)), (note, Load(kept))]
+    return [(own, keeping(body, value, kept, span)), (note, Load(kept))]
 
 
 def _rebinds(body: Body, node: tree.Call, record: Record, member: Member, target: Place, before: list[Stmt]) -> bool:

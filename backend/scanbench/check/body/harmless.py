@@ -43,7 +43,9 @@ def again(expr: Expr) -> Expr | None:
             return replace(expr, args=known) if len(known) == len(args) else None
         case Limit(type, value, low, high):
             inner = again(value)
-            return None if inner is None else limited(type, inner, low, high)
+            if inner is None or not isinstance(inner.type, Elementary) or inner.type == type:
+                return None if inner is None else limited(type, inner, low, high)
+            return Convert(type, limited(inner.type, inner, low, high))
     return None
 
 

@@ -7,7 +7,7 @@ may have changed the variable; where ways meet, what all of them know; a loop be
 
 from dataclasses import dataclass, replace
 
-from scanbench.check.body.subrange_checks import value_range
+from scanbench.check.body.true_values import value_range
 from scanbench.check.context import Report
 from scanbench.program.program import (
     Assign,

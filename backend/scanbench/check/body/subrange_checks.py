@@ -8,17 +8,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
+from scanbench.check.body import fold
 from scanbench.check.body.context import Body
 from scanbench.check.body.harmless import again, again_at, limited
 from scanbench.check.body.notes import note_of
+from scanbench.check.body.true_values import elementary, true_value, value_range, wrapped_valid, written
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
-    Binary,
     CallFunction,
     Compare,
     Const,
-    Convert,
     Expr,
     Halt,
     If,
@@ -43,12 +43,10 @@ from scanbench.program.types import (
     base_of,
     has_instance,
 )
-from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
 LIMITED = ("limit", "hold")
 """Policies under which a value that is read is limited."""
-WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 
 
 def read(body: Body, place: Place, span: Span, variable: str) -> Expr:
@@ -80,11 +78,13 @@ def into(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> E
         value = expr.value
         if isinstance(value, int) and not type.low <= value <= type.high:
             raise body.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
-    return limit(body, expr, type, span, variable)
+    wide = None if policy_of(body, type) == "off" else true_value(body, expr, type)
+    return limit(body, wide or expr, type, span, variable)
 
 
 def limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
-    """The value as its policy wants it, which is `expr` itself where it needs no check."""
+    """The value as its policy wants it, of the base type; that is `expr` itself where it needs no check. `expr` may be of a
+    wider type (`true_value`)."""
     if body.pou is None:
         return expr  # among declarations everything is constant
     base, policy = base_of(type), policy_of(body, type)
@@ -95,17 +95,17 @@ def limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> 
     site = CheckSite(span, body.scope.pou, variable, type.low, type.high, _proof(expr, type))
     number = body.report.check(site)
     if site.needless:
-        return expr
+        return Load(replace(expr.place, type=base)) if isinstance(expr, Load) else expr
     if policy in LIMITED:
         return Limit(base, expr, type.low, type.high, number)
-    kept = body.temporary(base, span)
+    kept = body.temporary(elementary(expr), span)
     outside = Violates(BOOL, Load(kept), type.low, type.high, number)
     if policy == "report":
         then: Stmt = Assign(body.temporary(BOOL, span), outside, span)
     else:
         trap = body.trap(TrapKind.BOUNDS, span, f"{variable} is outside of {type.low}..{type.high}")
         then = If(((outside, (Halt(trap, span),)),), (), span)
-    return Sequence((Assign(kept, expr, span), then), Load(kept))
+    return Sequence((Assign(kept, expr, span), then), fold.convert(base, Load(kept)))
 
 
 def has_subranges(type: Type) -> bool:
@@ -134,10 +134,10 @@ def holding(body: Body, value: Expr, place: Place, span: Span, last: Place | Non
     if same is None:
         return value
     base = base_of(type)
-    kept = body.temporary(base, span)
+    kept = body.temporary(elementary(value.value), span)
     outside = Violates(BOOL, Load(kept), value.low, value.high, value.site)
-    before = Load(replace(same, type=base))
-    return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, (outside, Load(kept), before)))
+    chosen = (outside, fold.convert(base, Load(kept)), Load(replace(same, type=base)))
+    return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, chosen))
 
 
 @contextmanager
@@ -163,13 +163,14 @@ def as_written(body: Body, place: Place, member: Member | None) -> Expr:
     if note is None:
         return there
     kept = Load(note)
-    valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
+    valid: Expr = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
+    valid = wrapped_valid(valid, kept, there, type)
     once_more = again(there)
     assert once_more is not None
-    written = Intrinsic("SEL", base, (valid, once_more, kept))
+    value = Intrinsic("SEL", base, (valid, once_more, kept))
     if policy_of(body, type) != "hold":
-        return written
-    return Intrinsic("SEL", base, (Violates(BOOL, kept, type.low, type.high, 0), written, kept))
+        return value
+    return Intrinsic("SEL", base, (Violates(BOOL, kept, type.low, type.high, 0), value, kept))
 
 
 def _note_of(body: Body, place: Place, member: Member | None) -> Place | None:
@@ -193,20 +194,27 @@ def with_note(body: Body, value: Expr, type: Subrange, span: Span) -> tuple[Expr
         return value, value
     same = again(value.value if isinstance(value, Limit) else value)
     if same is not None:
-        return value, same
+        return value, written(same, type)
     kept = body.temporary(base_of(type), span)
-    return keeping(value, kept, span), Load(kept)
+    return keeping(body, value, kept, span), Load(kept)
 
 
-def keeping(value: Expr, note: Place | None, span: Span) -> Expr:
+def keeping(body: Body, value: Expr, note: Place | None, span: Span) -> Expr:
     """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
     if note is None:
         return value
     match value:
+        case Limit() if elementary(value.value) != value.type:
+            kept = body.temporary(elementary(value.value), span)
+            noted = Assign(note, written(Load(kept), value), span)
+            return Sequence((Assign(kept, value.value, span), noted), replace(value, value=Load(kept)))
         case Limit():
             return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
-        case Sequence((Assign(kept),) as first, Intrinsic("SEL", args=(Violates(), *_)) as chosen):  # `holding`
-            return Sequence((*first, Assign(note, Load(kept), span)), chosen)
+        case Sequence((Assign(kept),) as first, Intrinsic("SEL", args=(Violates() as told, *_)) as chosen):  # `holding`
+            type = value.type
+            assert isinstance(type, Elementary)
+            to = Limit(type, Load(kept), told.low, told.high, 0)
+            return Sequence((*first, Assign(note, written(Load(kept), to), span)), chosen)
     return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
 
 
@@ -221,33 +229,6 @@ def _proof(expr: Expr, type: Subrange) -> str:
         case Limit():
             return f"the value is brought to {low}..{high} already"
     return f"the value is {low}..{high} at most"
-
-
-def value_range(expr: Expr) -> tuple[int, int]:
-    """Bounds that an integer expression cannot leave."""
-    type = expr.type
-    assert isinstance(type, Elementary)
-    whole = bounds(type)
-    match expr:
-        case Const(value=int(value)):
-            return value, value
-        case Limit(low=low, high=high):
-            return low, high
-        case Convert(operand=operand) if isinstance(operand.type, Elementary) and operand.type.kind in WHOLE:
-            inner = value_range(operand)
-            return inner if whole[0] <= inner[0] and inner[1] <= whole[1] else whole
-        case Binary("mod", right=Const(value=int(value))) if type.kind in WHOLE and value != 0:
-            most = abs(value) - 1
-            return (-most if type.signed else 0), most
-        case Binary("and", right=Const(value=int(value))) if type.kind is Kind.BITS:
-            return 0, value
-        case Sequence(value=value):
-            return value_range(value)
-        case Intrinsic("MIN" | "MAX" as name, args=(first, second)) if type.kind in WHOLE:
-            a, b = value_range(first), value_range(second)
-            choose = min if name == "MIN" else max
-            return choose(a[0], b[0]), choose(a[1], b[1])
-    return whole
 
 
 def _named(type: Subrange) -> str:

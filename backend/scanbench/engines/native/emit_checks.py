@@ -3,7 +3,7 @@
 from scanbench.engines.native import emit_deferred
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
-from scanbench.engines.native.emit_operators import intrinsic
+from scanbench.engines.native.emit_operators import convert, intrinsic
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
@@ -91,7 +91,13 @@ again:
 
 def limit(body: Body, expr: Limit) -> Value:
     """The value within its bounds; what was outside is recorded."""
-    type, name = elementary(expr.type), value_type(elementary(expr.type))
+    type = elementary(expr.value.type)
+    return convert(body, type, elementary(expr.type), _limited(body, expr, type))
+
+
+def _limited(body: Body, expr: Limit, type: Elementary) -> Value:
+    """The same in the type of the value, which may be wider."""
+    name = value_type(type)
     value = body.scalar(expr.value)
     if within(value.range, (expr.low, expr.high)):
         return value
