@@ -136,7 +136,7 @@ class Collected:
             stretched(self.stretches, verified.scan, verified.scan)
         self.last_scan = verified.scan
         self.most_used = max(self.most_used, verified.used)
-        self.columns += verified.columns
+        self.columns = [*{each.name: each for each in (*self.columns, *verified.columns)}.values()]
         self.inputs |= dict.fromkeys(verified.inputs)
         self.outputs |= dict.fromkeys(verified.outputs)
         for row in verified.rows:

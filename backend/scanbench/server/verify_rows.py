@@ -125,8 +125,7 @@ class Rows:
         return self.old[index] if index < self.first else self.kept[index - self.first]
 
     def _learn(self, came: ScansVerified) -> None:
-        known = {each.name for each in self.columns}
-        self.columns += [each for each in came.columns if each.name not in known]
+        self.columns = [*{each.name: each for each in (*self.columns, *came.columns)}.values()]
         self.inputs.update(dict.fromkeys(came.inputs))
         self.outputs.update(dict.fromkeys(came.outputs))
 

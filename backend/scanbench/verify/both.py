@@ -272,7 +272,7 @@ class Both:
         made = []
         for leaf in self.leaves(view, found, control, monitor):
             was, right = _cut(leaf, control), _cut(leaf, monitor)
-            one, other = values(leaf, was, right)
+            one, other = values(view.reader.names, leaf, was, right)
             text = f"{leaf.name} is {one}, the reference gives {other}, after scan {scan}"
             kept = after and layout.violations and leaf.offset >= layout.violations
             made.append(mismatch("logic" if kept else "outside", leaf, was, right, None, text))
@@ -329,7 +329,7 @@ class Both:
         made = []
         for leaf in self.leaves(view, left, there, own):
             was, right = _cut(leaf, there), _cut(leaf, own)
-            one, other = values(leaf, was, right)
+            one, other = values(view.reader.names, leaf, was, right)
             text = f"{leaf.name} was {one} in scan {scan}, and should have been {other}: nobody wrote it"
             made.append(mismatch("input", leaf, was, right, None, text))
         self.extra = [*made, *self.extra]
@@ -350,7 +350,7 @@ class Both:
         found = [at for at, (one, other) in enumerate(zip(recorded, here, strict=True)) if one != other]
         for leaf in self.leaves(view, found, recorded, here):
             was, again = _cut(leaf, recorded), _cut(leaf, here)
-            one, other = values(leaf, was, again)
+            one, other = values(view.reader.names, leaf, was, again)
             text = f"{leaf.name} was {one} after scan {scan} when it was recorded, and the same code gives {other} now"
             self.extra.append(mismatch("recorded", leaf, was, again, None, text))
         side.memory[: len(recorded)] = recorded

@@ -1,11 +1,12 @@
 """Rows of the table: what the two sides used and came to, pass by pass, and the first place where they part."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from scanbench.program.types import Enumeration
+from scanbench.program.types import Enumeration, Reference
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names, NamesInside
+from scanbench.symbols.references import slot_text
 from scanbench.verify.contract import MAX_COLUMNS, Cause, Column, Input, Mismatch, Output, Row, RowKind
 from scanbench.verify.monitor import Inputs
 from scanbench.verify.places import FramesAt, Places
@@ -14,6 +15,8 @@ from scanbench.verify.uses import Access, Pass
 
 MAX_MISMATCHES = 20
 """Of a row."""
+MAX_NAMES = 256
+"""Of what a reference refers to, of a column; others are shown by where they are."""
 
 
 class Columns:
@@ -23,6 +26,7 @@ class Columns:
         self.all: dict[str, Column] = {}
         self._inputs: set[str] = set()
         self._outputs: set[str] = set()
+        self._named: dict[str, dict[int, str | None]] = {}
         self._new: tuple[list[Column], list[str], list[str]] = [], [], []
 
     def used(self, leaf: Leaf, written: bool) -> bool:
@@ -41,6 +45,21 @@ class Columns:
             new.append(name)
         return True
 
+    def refer(self, name: str, slot: int, text: str) -> None:
+        """What a value of a reference refers to; it is shown like the name of an enumeration's value. The column is told once more."""
+        known = self._named.setdefault(name, {})
+        if slot in known:
+            if known[slot] in (text, None):
+                return
+            known[slot] = None  # the program has changed, and the rows before that are still there
+        elif len(known) >= MAX_NAMES:
+            return
+        else:
+            known[slot] = text
+        values = tuple((each, number) for number, each in known.items() if each is not None)
+        self.all[name] = column = replace(self.all[name], values=values)
+        self._new[0].append(column)
+
     def take(self) -> tuple[tuple[Column, ...], tuple[str, ...], tuple[str, ...]]:
         """New columns, and names that were inputs and outputs for the first time, since this was last asked."""
         columns, inputs, outputs = self._new
@@ -55,6 +74,17 @@ class Reader:
     names: Names
     places: Places
     columns: Columns
+
+    def used(self, leaf: Leaf, written: bool, *values: bytes) -> bool:
+        """Notes a use and its values; false where no column can be shown for it."""
+        if not self.columns.used(leaf, written):
+            return False
+        if isinstance(leaf.type, Reference):
+            for each in values:
+                if any(each):
+                    text = slot_text(self.names, leaf.type, each)
+                    self.columns.refer(leaf.name, int.from_bytes(each, "little"), text)
+        return True
 
 
 @dataclass(slots=True)
@@ -150,12 +180,13 @@ def _outputs(reader: Reader, names: NamesInside, pair: Pair) -> dict[str, Output
 def _written(reader: Reader, names: NamesInside, log: list[Access]) -> dict[str, bytes]:
     """The last values, by columns, in the order of the first writes."""
     found: dict[str, bytes] = {}
-    used = reader.columns.used
     for _, _, offset, size, bits, written, value in log:
         if written:
             for leaf in names.at(offset, size, bits):
-                if leaf.name in found or used(leaf, True):
-                    found[leaf.name] = leaf.cut(value, offset)
+                data = leaf.cut(value, offset)
+                known = leaf.name in found and not isinstance(leaf.type, Reference)
+                if known or reader.used(leaf, True, data):
+                    found[leaf.name] = data
     return found
 
 
@@ -185,7 +216,7 @@ def _inputs(
             expected = None if own is None else leaf.cut(own, offset)
             if expected == recorded:
                 expected = None
-            if reader.columns.used(leaf, False):
+            if reader.used(leaf, False, recorded, expected or b""):
                 found[leaf.name] = Input(recorded, expected)
             if expected is not None:
                 differences.append(teller.input(leaf, recorded, expected))

@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 
 from scanbench.engines.debug import Frame
+from scanbench.program.types import Reference
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names, NamesInside
+from scanbench.symbols.references import slot_text
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import Cause, Mismatch, Place
 from scanbench.verify.places import Places
@@ -32,13 +34,13 @@ class Teller:
     ) -> Mismatch:  # fmt: skip
         """A value differs."""
         place = self.places.of(site, frames)
-        was, right = values(leaf, control, monitor)
+        was, right = values(self.names, leaf, control, monitor)
         text = f"{self._subject(leaf)} is {was}, the reference gives {right}, at {_at(place)} in scan {self.scan}"
         return mismatch(cause, leaf, control, monitor, place, text)
 
     def input(self, leaf: Leaf, recorded: bytes, expected: bytes) -> Mismatch:
         """Something was read that nobody had written."""
-        was, right = values(leaf, recorded, expected)
+        was, right = values(self.names, leaf, recorded, expected)
         text = f"{self._subject(leaf)} was {was} when it was read, and should have been {right}, in scan {self.scan}"
         return mismatch("input", leaf, recorded, expected, None, text)
 
@@ -76,12 +78,16 @@ class Teller:
         return f"{self.path}.{leaf.name}" if self.inside and not leaf.passing else leaf.name
 
 
-def values(leaf: Leaf, control: bytes, monitor: bytes) -> tuple[str, str]:
+def values(names: Names, leaf: Leaf, control: bytes, monitor: bytes) -> tuple[str, str]:
     """Both as text, so that they can be told apart: of a string the bytes where they differ after its end."""
-    one, other = format_value(leaf.type, control), format_value(leaf.type, monitor)
+    one, other = (_text(names, leaf, each) for each in (control, monitor))
     if one != other:
         return one, other
     return f"{one} (bytes {control.hex(' ')})", f"{other} (bytes {monitor.hex(' ')})"
+
+
+def _text(names: Names, leaf: Leaf, value: bytes) -> str:
+    return slot_text(names, leaf.type, value) if isinstance(leaf.type, Reference) else format_value(leaf.type, value)
 
 
 def mismatch(cause: Cause, leaf: Leaf, control: bytes, monitor: bytes, place: Place | None, text: str) -> Mismatch:

@@ -173,10 +173,10 @@ class _Step:
                 known, value = outputs.get(leaf.name, Output(None, None)), leaf.cut(side.memory, 0)
                 outputs[leaf.name] = Output(value, known.monitor) if mine else Output(known.control, value)
         inputs = {
-            leaf.name: Input(leaf.cut(access.value, access.offset))
+            leaf.name: Input(value)
             for access, _ in Pass(None, 0, 0, log=control.log).fresh()
             for leaf in self._leaves(names, access)
-            if self.view.reader.columns.used(leaf, False)
+            if self.view.reader.used(leaf, False, value := leaf.cut(access.value, access.offset))
         }
         causes, consequences, still = self._different()
         note = "; ".join(filter(None, (self._ended(), self._rest(), _still(still))))
@@ -231,7 +231,10 @@ class _Step:
         """Their values are those at the end of the step: a disturbed result is not what was written."""
         for access in log:
             if access.written:
-                yield from (leaf for leaf in self._leaves(names, access) if self.view.reader.columns.used(leaf, True))
+                for leaf in self._leaves(names, access):
+                    values = (leaf.cut(side.memory, 0) for side in (self.control, self.monitor))
+                    if self.view.reader.used(leaf, True, *values):
+                        yield leaf
 
     # ---- what is different ----------------------------------------------------------------------------------------
 
@@ -293,7 +296,7 @@ class _Step:
 
     def _mismatch(self, leaf: Leaf, cause: Cause, place: Place | None) -> Mismatch:
         was, right = (leaf.cut(each, 0) for each in (self.control.memory, self.monitor.memory))
-        here, there = values(leaf, was, right)
+        here, there = values(self.view.reader.names, leaf, was, right)
         where = f" at {place.file}:{place.line}" if place is not None else ""
         text = f"{leaf.name} is {here}, the reference gives {there},{where} in scan {self.scan}"
         return mismatch(cause, leaf, was, right, place, text)

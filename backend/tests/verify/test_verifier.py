@@ -18,6 +18,7 @@ from scanbench.recording.headless import run_headless
 from scanbench.recording.programs import on, reference
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
+from scanbench.reports.value_text import value_text
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
@@ -27,7 +28,10 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.server.samples import Sample, samples
+from scanbench.symbols.names import Names
+from scanbench.symbols.symbols import resolve
 from scanbench.verify.contract import Range
+from scanbench.verify.sentences import values
 from scanbench.verify.verifier import BadEdit
 from scanbench.wire.codec import ENTRIES
 from tests.caseformat import MODELS
@@ -487,3 +491,33 @@ def test_a_debuggers_write_inside_of_a_scan_is_no_difference(tmp_path: Path) -> 
         found = rows(verified)
     assert differences(found) == []
     assert value(found[2].outputs["Main.n"].control) == 50
+
+
+def test_a_reference_is_shown_by_the_name_of_what_it_refers_to(tmp_path: Path) -> None:
+    checked_program = program("""\
+TYPE Tank : STRUCT level : INT; END_STRUCT END_TYPE
+PROGRAM Main
+VAR a, b : Tank; p, none : REF_TO Tank; f : BOOL; bit : REF_TO BOOL; n : INT; END_VAR
+IF n MOD 2 = 0 THEN p := REF(a); ELSE p := REF(b); END_IF;
+bit := REF(f);
+none := NULL;
+n := n + 1;
+END_PROGRAM
+""")
+    with verifier(record(tmp_path / "r.sbrun", checked_program, 3), checked_program) as verifying:
+        found = rows(verifying)
+        columns = verifying.columns
+    shown = [value_text(columns["Main.p"], row.outputs["Main.p"].control) for row in found]
+    assert shown == ["-> Main.a", "-> Main.b", "-> Main.a"]
+    assert value_text(columns["Main.bit"], found[0].outputs["Main.bit"].monitor) == "-> Main.f"
+    assert value_text(columns["Main.none"], found[0].outputs["Main.none"].control) == "NULL"
+
+
+def test_a_difference_of_references_says_their_names(tmp_path: Path) -> None:
+    names = Names(
+        checked_of := program("PROGRAM Main\nVAR a, b : INT; p : REF_TO INT; END_VAR\np := REF(b);\nEND_PROGRAM\n")
+    )
+    a, b, p = (resolve(checked_of, f"Main.{each}") for each in "abp")
+    leaf = names.at(p.offset, 8)[0]
+    slots = [each.offset.to_bytes(8, "little") for each in (a, b)]
+    assert values(names, leaf, *slots) == ("-> Main.a", "-> Main.b")

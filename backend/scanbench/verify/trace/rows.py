@@ -67,7 +67,7 @@ class TraceRows:
         written = written_by(reader, made)
         outputs: dict[str, Output] = {}
         for name, result in known.items():
-            if reader.columns.used(_leaf(names, result.signal), True):
+            if reader.used(_leaf(names, result.signal), True, result.found):
                 outputs[name] = Output(_shown(result, ran), None if ran.recorded.taken_over else result.found)
         alone = {name: value for name, value in written.items() if name not in outputs}
         outputs |= {name: Output(None, value) for name, value in alone.items()}
@@ -77,9 +77,7 @@ class TraceRows:
         note = f"record full: {len(made.log):,} of {made.used:,} uses kept" if made.full else ""
         path = reader.places.path(made.pou, made.instance)
         inputs = {
-            name: Input(value)
-            for name, (leaf, value) in _read(reader, made).items()
-            if reader.columns.used(leaf, False)
+            name: Input(value) for name, (leaf, value) in _read(reader, made).items() if reader.used(leaf, False, value)
         }
         compared = any(None not in (each.control, each.monitor) for each in outputs.values())
         if kind == "pass" and made.full:  # which outputs are its own is not known
@@ -130,7 +128,7 @@ class TraceRows:
         outputs, differences = {}, []
         for each in results:
             leaf = _leaf(names, each.signal)
-            if self._reader.columns.used(leaf, True):
+            if self._reader.used(leaf, True, each.found):
                 outputs[leaf.name] = Output(each.recorded if over else None, each.found)
             if over and not ran.recorded.taken_over and not each.same:
                 differences.append(_mismatch(leaf.name, each, None, scan))

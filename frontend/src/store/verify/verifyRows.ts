@@ -191,7 +191,12 @@ const sameColumns = (a: readonly VerifyColumn[], b: readonly VerifyColumn[]) =>
   a.length === b.length &&
   a.every((column, at) => {
     const other = b[at];
-    return column.name === other?.name && column.input === other.input && column.output === other.output;
+    return (
+      column.name === other?.name &&
+      column.input === other.input &&
+      column.output === other.output &&
+      column.values.length === other.values.length // of a reference they grow
+    );
   });
 
 // A different verification, a different generation, or more rows: the visible rows are updated.
