@@ -90,6 +90,15 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
     return {**sources, own: language_text(dialect, said.namespaces, version, said.defines, _words(said))}
 
 
+def with_subranges(
+    sources: Mapping[str, str], policies: Mapping[str, str], name: str = LANGUAGE_FILE
+) -> dict[str, str]:  # fmt: skip
+    """The sources, which say this, and nothing else, of values outside of subranges."""
+    own = next((each for each in sources if is_language_file(each)), name)
+    said = language_of(sources)[0]
+    return {**sources, own: language_text(said.dialect, said.namespaces, said.version, said.defines, policies)}
+
+
 def with_namespaces(
     sources: Mapping[str, str], namespaces: Collection[str], name: str = LANGUAGE_FILE, defines: Collection[str] = ()
 ) -> dict[str, str]:

@@ -6,10 +6,12 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 CONVENTIONS = ("reference", "value")
 _IN_OUT = re.compile(r"\{\s*in_out\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
-POLICIES = ("limit", "hold", "trap", "report", "off")
+PolicyName = Literal["limit", "hold", "trap", "report", "off"]
+POLICIES: tuple[PolicyName, ...] = get_args(PolicyName)
 _SUBRANGE = re.compile(r"\{\s*subrange\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
 _STUB = re.compile(r"\{\s*stub\s*\}", re.IGNORECASE)
 

@@ -1,8 +1,11 @@
 """What goes over the wire about new projects: what they begin with, and archives that they come from."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from scanbench.syntax.language_file import DialectName
+from scanbench.syntax.pragmas import PolicyName
 from scanbench.web.messages_base import Wire
 
 
@@ -42,6 +45,15 @@ class ProjectDialect(Wire):
     """What the programs of a project are written in; `iec` is the strict language."""
 
     dialect: DialectName
+
+
+class ProjectSubranges(Wire):
+    """What becomes of values outside of subranges where no pragma says it; what no entry is about is limited."""
+
+    policies: dict[Annotated[str, Field(max_length=200)], PolicyName] = Field(
+        max_length=1000,
+        description="by the name of a variable (`Main.speed`), a type, a POU or a method, or `*` for all the others",
+    )
 
 
 class ProjectLibrary(Wire):

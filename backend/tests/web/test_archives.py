@@ -84,6 +84,26 @@ def test_an_imported_project_has_the_dialect_of_its_files_and_a_packed_one_its_o
     assert server.http.put(f"/api/projects/{first}/dialect", json={"dialect": "basic"}).status_code == 422
 
 
+def test_the_policies_of_subranges_are_read_and_written_beside_the_dialect(server: Server) -> None:
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w") as archive:
+        archive.writestr("Main.st", "PROGRAM Main\nVAR x : INT (0..10); y : INT; END_VAR\nx := y;\nEND_PROGRAM\n")
+    at = f"/api/projects/{_taken(server, 'subranges', made.getvalue())}"
+    assert server.http.get(f"{at}/subranges").json() == {"policies": {}}
+    server.http.put(f"{at}/dialect", json={"dialect": "codesys"})
+    wanted = {"policies": {"*": "report", "Main.x": "trap"}}
+    assert server.http.put(f"{at}/subranges", json=wanted).json() == wanted
+    assert server.http.get(f"{at}/subranges").json() == wanted
+    assert server.http.get(f"{at}/dialect").json() == {"dialect": "codesys"}
+    assert server.http.post(f"{at}/check", json={"files": {}}).json()["problems"] == []
+    for wrong in ({"no name": "trap"}, {"Main.x": "trap", "MAIN.X": "off"}, {"*": "explode"}):
+        refused = server.http.put(f"{at}/subranges", json={"policies": wrong})
+        assert refused.status_code == 422
+        assert refused.json()["message"]
+    assert server.http.get(f"{at}/subranges").json() == wanted
+    assert server.http.put(f"{at}/subranges", json={"policies": {}}).json() == {"policies": {}}
+
+
 def test_an_imported_project_gets_the_libraries_that_it_uses_and_more_on_request(server: Server) -> None:
     text = "PROGRAM Main\nVAR s : Tc2_System.T_MaxString; b : BOOL; END_VAR\nTestAndSet(b);\nEND_PROGRAM\n"
     made = io.BytesIO()

@@ -2216,6 +2216,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/subranges": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What the project says of values outside of subranges
+         * @description What the project says of values outside of subranges.
+         */
+        get: operations["get_project_subranges"];
+        /**
+         * Says it anew, all of it: writes the project's `language.json`
+         * @description Says it anew, all of it: writes the project's `language.json`.
+         */
+        put: operations["save_project_subranges"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/sweeps": {
         parameters: {
             query?: never;
@@ -7514,6 +7538,19 @@ export interface components {
             used: boolean;
         };
         /**
+         * ProjectSubranges
+         * @description What becomes of values outside of subranges where no pragma says it; what no entry is about is limited.
+         */
+        ProjectSubranges: {
+            /**
+             * Policies
+             * @description by the name of a variable (`Main.speed`), a type, a POU or a method, or `*` for all the others
+             */
+            policies: {
+                [key: string]: "limit" | "hold" | "trap" | "report" | "off";
+            };
+        };
+        /**
          * ProjectTemplate
          * @description What a new project can begin with.
          */
@@ -9975,7 +10012,7 @@ export interface components {
             type: string;
             /**
              * Values
-             * @description Names of an enumeration's numbers.
+             * @description Names of an enumeration's numbers; of a reference what the values so far refer to, `-> Main.tank`.
              */
             values: [
                 string,
@@ -14919,6 +14956,72 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProgramState"][];
+                };
+            };
+        };
+    };
+    get_project_subranges: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectSubranges"];
+                };
+            };
+        };
+    };
+    save_project_subranges: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProjectSubranges"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectSubranges"];
                 };
             };
         };

@@ -41,6 +41,7 @@ import type {
   ProjectArchive,
   ProjectDialect,
   ProjectLibrary,
+  ProjectSubranges,
   ProjectTemplate,
   ProjectVersion,
   Reaction,
@@ -187,6 +188,9 @@ export const rest = {
   dialect: (project: number) => json<ProjectDialect>("GET", `/projects/${project}/dialect`),
   changeDialect: (project: number, dialect: ProjectDialect["dialect"]) =>
     json<ProjectDialect>("PUT", `/projects/${project}/dialect`, { dialect }),
+  subranges: (project: number) => json<ProjectSubranges>("GET", `/projects/${project}/subranges`),
+  changeSubranges: (project: number, policies: ProjectSubranges["policies"]) =>
+    json<ProjectSubranges>("PUT", `/projects/${project}/subranges`, { policies }),
   libraries: (project: number) => json<ProjectLibrary[]>("GET", `/projects/${project}/libraries`),
   addLibrary: (project: number, name: string) =>
     json<FileInfo>("POST", `/projects/${project}/libraries/${encodeURIComponent(name)}`),

@@ -78,6 +78,7 @@ export type ExchangeFile = Shapes["ExchangeFile"];
 export type ExchangeForm = Shapes["Form"];
 export type ProjectArchive = Shapes["ProjectArchive"];
 export type ProjectDialect = Shapes["ProjectDialect"];
+export type ProjectSubranges = Shapes["ProjectSubranges"];
 export type ProjectLibrary = Shapes["ProjectLibrary"];
 export type UnsavedText = Shapes["UnsavedText"];
 export type ProjectTemplate = Shapes["ProjectTemplate"];

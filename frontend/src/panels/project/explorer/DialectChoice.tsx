@@ -10,12 +10,13 @@ import {
 import { t } from "../../../text";
 import { IconButton } from "../../../ui/IconButton";
 import { Libraries } from "./Libraries";
+import { Subranges } from "./Subranges";
 import "./libraries.css";
 
 /** The dialect that the programs of the project are written in: shown, and changed. */
 export function DialectChoice({ project }: { project: number }) {
   const { dialect, trouble } = useDialect();
-  const [open, setOpen] = useState(false);
+  const [open, setOpen] = useState<"libraries" | "subranges" | null>(null);
   const version = useDialectVersion();
   // biome-ignore lint/correctness/useExhaustiveDependencies: a new version of the file may name a different dialect
   useEffect(() => void loadDialect(project), [project, version]);
@@ -37,9 +38,11 @@ export function DialectChoice({ project }: { project: number }) {
             ))}
           </select>
         </label>
-        <IconButton icon="stack" label={t("libraries.open")} onClick={() => setOpen(true)} />
+        <IconButton icon="stack" label={t("libraries.open")} onClick={() => setOpen("libraries")} />
+        <IconButton icon="bound" label={t("subranges.open")} onClick={() => setOpen("subranges")} />
       </div>
-      {open && <Libraries project={project} onClose={() => setOpen(false)} />}
+      {open === "libraries" && <Libraries project={project} onClose={() => setOpen(null)} />}
+      {open === "subranges" && <Subranges project={project} onClose={() => setOpen(null)} />}
       {trouble !== null && (
         <p className="lonely" role="alert">
           {trouble}
