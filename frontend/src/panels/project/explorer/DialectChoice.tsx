@@ -39,7 +39,7 @@ export function DialectChoice({ project }: { project: number }) {
           </select>
         </label>
         <IconButton icon="stack" label={t("libraries.open")} onClick={() => setOpen("libraries")} />
-        <IconButton icon="bound" label={t("subranges.open")} onClick={() => setOpen("subranges")} />
+        <IconButton icon="fit" label={t("subranges.open")} onClick={() => setOpen("subranges")} />
       </div>
       {open === "libraries" && <Libraries project={project} onClose={() => setOpen(null)} />}
       {open === "subranges" && <Subranges project={project} onClose={() => setOpen(null)} />}
