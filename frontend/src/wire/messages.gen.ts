@@ -10012,7 +10012,7 @@ export interface components {
             type: string;
             /**
              * Values
-             * @description Names of an enumeration's numbers; of a reference what the values so far refer to, `-> Main.tank`.
+             * @description Names of an enumeration's numbers.
              */
             values: [
                 string,
