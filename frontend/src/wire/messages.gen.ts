@@ -2229,8 +2229,8 @@ export interface paths {
          */
         get: operations["get_project_subranges"];
         /**
-         * Says it anew, all of it: writes the project's `language.json`
-         * @description Says it anew, all of it: writes the project's `language.json`.
+         * Replaces all of it: writes the project's `language.json`
+         * @description Replaces all of it: writes the project's `language.json`.
          */
         put: operations["save_project_subranges"];
         post?: never;

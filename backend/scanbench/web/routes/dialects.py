@@ -35,6 +35,6 @@ async def on_subranges(bench: Bench, project: Id) -> ProjectSubranges:
 async def on_change_subranges(
     bench: Bench, request: Request, project: Id, wanted: ProjectSubranges
 ) -> ProjectSubranges:
-    """Says it anew, all of it: writes the project's `language.json`."""
+    """Replaces all of it: writes the project's `language.json`."""
     made = await change_subranges(bench.projects, project, wanted.policies, user_of(request).name)
     return ProjectSubranges.model_validate({"policies": made})
