@@ -11,6 +11,8 @@ from scanbench.faults.line_faults import NO_FAULT, LineFault
 from scanbench.public import Moment, Public
 from scanbench.runtime.clock import monotonic_ns, wall_time
 
+UNANSWERED = "done, without an answer: the fault of the line that was chosen here"
+"""What became of a request whose answer is kept from the client."""
 ELSEWHERE = "the fault of the line that was chosen here: the PLC has a different node number"
 """Why the request of a client reaches nobody: it may well have asked right."""
 FRAMES_KEPT = 50
@@ -34,7 +36,7 @@ class FrameSeen(Public):
     text: str
     """Decoded: `memory area read D100, 3`."""
     outcome: str
-    """Empty where it was done; else why not, with the code of the protocol."""
+    """Empty where it was done and answered; else why not, with the code of the protocol."""
     request: str
     """Bytes in hexadecimal, as many as there is room for."""
     answer: str
@@ -145,7 +147,8 @@ class Desk:
         """A request was answered; `outcome` is empty where it was done."""
         self._answered.append(monotonic_ns())
         self._noted += 1
-        self._frames.append(FrameSeen(self._noted, wall_time(), name, text, outcome, _shown(request), _shown(answer)))
+        told = outcome or (UNANSWERED if self.fault.kind == "silent" else "")
+        self._frames.append(FrameSeen(self._noted, wall_time(), name, text, told, _shown(request), _shown(answer)))
         client = self._clients.get(name)
         if client is None:
             return

@@ -1,6 +1,7 @@
 """The scenario of a recorded run up to a scan: what people did, and what the outputs are there."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from scanbench.history.scenario import Scenario
 from scanbench.history.scenario_steps import from_run
@@ -12,6 +13,8 @@ from scanbench.symbols.rack import INPUT, OUTPUT, terminals
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.whole import worth_text
 
+NOTHING = "Nothing is expected: the program has no variable at an output. Write what is to hold below `expect:`."
+"""A comment in the file: a test without it would pass whatever the program does."""
 _EXPECTED = 50
 """Outputs that are looked at."""
 
@@ -36,7 +39,8 @@ def scenario_of(
         raise Unreadable(error.message, tuple(error.near)) from None
     told = [(each.path, worth_text(plc.program, plc.memory, each)) for each in wanted]
     entries = [each for each in reader.entries if each.scan < scan]
-    return from_run(entries, scan, plc.program.layout.model, told, project)
+    made = from_run(entries, scan, plc.program.layout.model, told, project)
+    return made if made.expect else replace(made, notes=(*made.notes, NOTHING))
 
 
 def _outputs(program: Program) -> list[Symbol]:

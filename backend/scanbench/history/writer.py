@@ -259,7 +259,7 @@ def _by_statement(reader: RunReader, noted: Noted, symbol: Symbol, value: bytes)
 
 def _by_command(entry: Entry, symbol: Symbol, value: bytes, held: bool) -> Writer:
     command = entry.command
-    text = f"{type(command).__name__} by {command.author}: {entry.plan.message}"
+    text = entry.plan.message or type(command).__name__
     if held:
         text += f"; it holds since scan {entry.scan}"
     return Writer(

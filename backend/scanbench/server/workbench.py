@@ -41,6 +41,7 @@ from scanbench.session.log import LOG_LINES
 from scanbench.session.session import Session
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
+from scanbench.wire.events import InstanceDeleted
 from scanbench.wire.host import Driven
 from scanbench.wire.log import LogPage
 from scanbench.wire.refused import Refused, Unavailable
@@ -281,11 +282,12 @@ class Workbench:
         await session.change(await asyncio.to_thread(change), author)
         return session
 
-    async def delete_instance(self, id: int) -> None:
-        """Ends a PLC and forgets it, its history too."""
+    async def delete_instance(self, id: int, author: str = "") -> None:
+        """Ends a PLC and forgets it, its history too. Who is at it is told that `author` did."""
         session = self._sessions.pop(id, None)
         if session is None:
             raise NotFound(f"there is no instance {id}")
+        session.tell(InstanceDeleted(author))
         await self.communication.end(id)
         await self.verifications.forget_instance(id)
         await self.history.forget_instance(id)

@@ -1,8 +1,5 @@
 """What goes over the wire: every JSON shape of the REST API and of the WebSocket, here and in `messages_errors.py`.
-
-The browser's types (`frontend/src/wire/messages.gen.ts`) are generated from these models through the OpenAPI
-document, so a change here is a compile error there. Binary value frames are described in `frames.py`.
-"""
+The browser's types (`frontend/src/wire/messages.gen.ts`) are generated from them; `frames.py` describes binary frames."""
 
 from typing import Annotated, Literal
 
@@ -227,6 +224,13 @@ class InstanceLimits(Wire):
     run_mib: int | None = Field(default=None, ge=1, le=65536, description="bound of the run file; null is the default")
 
 
+class User(Wire):
+    """Somebody who is at a PLC."""
+
+    name: str
+    initials: str
+
+
 class Instance(Wire):
     """A virtual PLC that runs the program of a project."""
 
@@ -237,6 +241,7 @@ class Instance(Wire):
     state: InstanceState
     load: InstanceLoad
     limits: InstanceLimits
+    users: list[User] = Field(description="who is at it now")
 
 
 class ImportedInstance(Instance):
@@ -284,13 +289,6 @@ class Violation(Wire):
     times: int
     first_scan: int
     last_scan: int
-
-
-class User(Wire):
-    """Somebody who is at a PLC."""
-
-    name: str
-    initials: str
 
 
 class AppInfo(Wire):
@@ -424,6 +422,7 @@ ServerMessage = Annotated[
     | Built
     | Saved
     | events.FileDeleted
+    | events.InstanceDeleted
     | DraftEdited
     | Draft
     | events.DeviceChanged

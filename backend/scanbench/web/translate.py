@@ -132,6 +132,7 @@ def instance(session: Session, row: ProjectRow) -> wire.Instance:
         limits=wire.InstanceLimits(
             memory_mib=limits.memory_mib, cpu_percent=limits.cpu_percent, run_mib=limits.run_mib
         ),
+        users=list(map(user, session.users)),
     )  # fmt: skip
 
 

@@ -151,6 +151,16 @@ class FileSaved:
 
 
 @dataclass(frozen=True, slots=True)
+class InstanceDeleted(Public):
+    """Somebody deleted the PLC: who is at it goes on with a different one."""
+
+    PUBLIC: ClassVar = "InstanceDeleted"
+
+    author: str
+    type: Literal["instance_deleted"] = "instance_deleted"
+
+
+@dataclass(frozen=True, slots=True)
 class FileDeleted(Public):
     """Somebody deleted a file of the project."""
 
@@ -396,6 +406,7 @@ Told = (
     | ProgramBuilt
     | FileSaved
     | FileDeleted
+    | InstanceDeleted
     | DraftEdited
     | ValueWritten
     | DeviceChanged

@@ -154,7 +154,7 @@ def test_a_command_that_came_later(tmp_path: Path) -> None:
     advance(timeline, 8)
     found = _last(timeline, "Main.quiet")
     assert (found.by, found.author, found.scan, found.shown) == ("command", "Ada", 8, "9")
-    assert found.text.startswith("Write by Ada: Main.quiet")
+    assert found.text.startswith("Main.quiet")
     assert _last(timeline, "Main.quiet", 8).by == "command", "what was entered before the scan is there"
     assert _last(timeline, "Main.quiet", 7).by == "program"
     assert _last(timeline, "Main.one").by == "program", "a statement wrote it since"

@@ -15,7 +15,7 @@ from pymcprotocol.mcprotocolerror import MCProtocolError  # type: ignore[import-
 from pymodbus.client import ModbusTcpClient
 from pymodbus.exceptions import ConnectionException
 
-from scanbench.comm.desk import ELSEWHERE
+from scanbench.comm.desk import ELSEWHERE, UNANSWERED
 from scanbench.faults.line_faults import BreakLine, MendLine
 from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
@@ -315,6 +315,7 @@ def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
     client._socket.settimeout(0.2)
     with pytest.raises(TimeoutError):
         client.memory_area_write("D100", b"\x00\x07")
+    assert last_outcome(server, instance, "fins") == UNANSWERED
     client._socket.settimeout(PATIENCE_S)
     break_line(server, instance, "fins", "late", 1)
     assert words(client.memory_area_read("D100")) == [7], "it was done, and nobody was told"

@@ -126,6 +126,9 @@ function dispatch(message: ServerMessage): void {
     case "deleted":
       void onDeleted(message.path, message.author);
       return;
+    case "instance_deleted":
+      usePlc.setState({ deletedBy: message.author });
+      return;
     case "draft":
       onDraft(message);
       return;

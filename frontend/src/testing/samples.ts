@@ -50,6 +50,7 @@ export const someInstance = (id: number, project: Project): Instance => ({
   state: RUNNING,
   limits: { cpu_percent: null, memory_mib: null, run_mib: null },
   load: { cpu_percent: 1, memory_bytes: 50_000_000, run_bytes: 1_000_000 },
+  users: [],
 });
 
 export const someApp = (instance: Instance): AppInfo => ({

@@ -4150,7 +4150,7 @@ export interface components {
             number: number;
             /**
              * Outcome
-             * @description Empty where it was done; else why not, with the code of the protocol.
+             * @description Empty where it was done and answered; else why not, with the code of the protocol.
              */
             outcome: string;
             /**
@@ -6040,6 +6040,11 @@ export interface components {
             name: string;
             project: components["schemas"]["Project"];
             state: components["schemas"]["InstanceState"];
+            /**
+             * Users
+             * @description who is at it now
+             */
+            users: components["schemas"]["User"][];
         };
         /** ImportedRecord */
         ImportedRecord: {
@@ -6061,6 +6066,24 @@ export interface components {
             name: string;
             project: components["schemas"]["Project"];
             state: components["schemas"]["InstanceState"];
+            /**
+             * Users
+             * @description who is at it now
+             */
+            users: components["schemas"]["User"][];
+        };
+        /**
+         * InstanceDeleted
+         * @description Somebody deleted the PLC: who is at it goes on with a different one.
+         */
+        InstanceDeleted: {
+            /** Author */
+            author: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "instance_deleted";
         };
         /**
          * InstanceLimits
@@ -8425,7 +8448,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["Lines"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["InstanceDeleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["Lines"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /**
          * SetCell
          * @description An input of the set data, edited.

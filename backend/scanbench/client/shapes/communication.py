@@ -51,7 +51,7 @@ class CommunicationFrame(TypedDict):
     text: str
     """Decoded: `memory area read D100, 3`."""
     outcome: str
-    """Empty where it was done; else why not, with the code of the protocol."""
+    """Empty where it was done and answered; else why not, with the code of the protocol."""
     request: str
     """Bytes in hexadecimal, as many as there is room for."""
     answer: str

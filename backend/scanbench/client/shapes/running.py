@@ -148,6 +148,8 @@ class Instance(TypedDict):
     state: InstanceState
     load: InstanceLoad
     limits: InstanceLimits
+    users: list[User]
+    """who is at it now."""
 
 
 class AppInfo(TypedDict):
@@ -171,6 +173,8 @@ class ImportedInstance(TypedDict):
     state: InstanceState
     load: InstanceLoad
     limits: InstanceLimits
+    users: list[User]
+    """who is at it now."""
     damage: str
     """what is damaged in the file, and what is lost; empty where all is well."""
 

@@ -119,9 +119,9 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.ImportedI
 
 
 @router.delete("/instances/{instance}", status_code=204)
-async def on_delete_instance(bench: Bench, instance: Id) -> None:
+async def on_delete_instance(bench: Bench, request: Request, instance: Id) -> None:
     """Ends a PLC and deletes it."""
-    await bench.delete_instance(instance)
+    await bench.delete_instance(instance, user_of(request).name)
 
 
 @router.get("/instances/{instance}/symbols")

@@ -156,6 +156,17 @@ describe("matrixRows", () => {
 });
 
 describe("countCells", () => {
+  it("counts what is not as required by itself, and not as acted", () => {
+    const found = sweep([
+      cell("memory", "Idle", "acted", { required: 1, unmet: 1 }),
+      cell("battery", "Idle", "acted", { required: 1 }),
+    ]);
+    expect(countCells(found)).toMatchObject({ verdicts: { acted: 1 }, unmet: 1 });
+    const shown = (verdict: "acted" | "unmet") =>
+      matrixRows(found, { findings: false, verdict }).flatMap((row) => (row.kind === "error" ? [row.error.id] : []));
+    expect([shown("acted"), shown("unmet")]).toEqual([["battery"], ["memory"]]);
+  });
+
   it("counts an accepted finding only as accepted", () => {
     const found = sweep([
       cell("memory", "Idle", "stopped"),
@@ -177,6 +188,7 @@ describe("countCells", () => {
         stored_only: 0,
       },
       accepted: 1,
+      unmet: 0,
       none: 1,
       left: 2,
     });

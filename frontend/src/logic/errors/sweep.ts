@@ -67,7 +67,7 @@ export type MatrixRow = ErrorRow | GroupRow;
 /** Which rows are shown: all, those with a finding that nobody accepted, or those with a verdict (null: not raised). */
 export interface MatrixView {
   findings: boolean;
-  verdict: Verdict | "accepted" | "none" | null;
+  verdict: Verdict | "accepted" | "none" | "unmet" | null;
 }
 
 const keyOf = ({ error, state }: CellRef) => `${error}\n${state}`;
@@ -129,8 +129,10 @@ function passes(slots: readonly Slot[], { findings, verdict }: MatrixView): bool
   const found = slots.filter(isCell);
   if (findings && !found.some(isOpen)) return false;
   if (verdict === null) return true;
-  if (verdict === "accepted") return found.some((cell) => isFinding(cell.verdict) && cell.accepted);
-  return found.some((cell) => cell.verdict === (verdict === "none" ? null : verdict));
+  if (verdict === "unmet") return found.some((cell) => cell.unmet > 0);
+  const asRequired = found.filter((cell) => cell.unmet === 0);
+  if (verdict === "accepted") return asRequired.some((cell) => isFinding(cell.verdict) && cell.accepted);
+  return asRequired.some((cell) => cell.verdict === (verdict === "none" ? null : verdict));
 }
 
 function lineOf(slots: readonly Slot[]): Line | null {
@@ -149,13 +151,15 @@ function lineOf(slots: readonly Slot[]): Line | null {
 interface Counts {
   verdicts: Record<Verdict, number>;
   accepted: number;
+  /** Not as the project requires it, whatever the verdict. */
+  unmet: number;
   /** The error could not be raised. */
   none: number;
   /** Without a result so far. */
   left: number;
 }
 
-/** The number of cells of each kind; an accepted finding counts as accepted and not under its verdict. */
+/** The number of cells of each kind; an accepted finding counts as accepted and not under its verdict, and so does what is not as required. */
 export function countCells(sweep: Sweep): Counts {
   const verdicts: Record<Verdict, number> = {
     acted: 0,
@@ -171,12 +175,14 @@ export function countCells(sweep: Sweep): Counts {
   };
   let accepted = 0;
   let none = 0;
+  let unmet = 0;
   for (const cell of sweep.cells) {
-    if (cell.verdict === null) none += 1;
+    if (cell.unmet > 0) unmet += 1;
+    else if (cell.verdict === null) none += 1;
     else if (isFinding(cell.verdict) && cell.accepted) accepted += 1;
     else verdicts[cell.verdict] += 1;
   }
-  return { verdicts, accepted, none, left: Math.max(0, sweep.total - sweep.cells.length) };
+  return { verdicts, accepted, unmet, none, left: Math.max(0, sweep.total - sweep.cells.length) };
 }
 
 /** The first finding that nobody accepted: where the search starts. */

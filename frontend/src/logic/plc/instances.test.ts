@@ -10,6 +10,7 @@ function plc(id: number, name: string, cpu: number, mode: "RUN" | "MONITOR" = "M
     model: "CJ1M-CPU63",
     load: { cpu_percent: cpu, memory_bytes: 1000, run_bytes: 0 },
     limits: { memory_mib: null, cpu_percent: null, run_mib: null },
+    users: [],
     state: { state: "running", mode, scan: id, interval_ns: 1, late_percent: 0 } as Instance["state"],
   };
 }

@@ -37,6 +37,8 @@ export interface Plc {
   log: readonly LogLine[];
   /** Violations that the compiler's embedded checks found while the program ran. */
   diagnostics: Diagnostics;
+  /** Who deleted the PLC that is shown; null while it is there. */
+  deletedBy: string | null;
 }
 
 const NO_DIAGNOSTICS: Diagnostics = { type: "diagnostics", violations: [], dropped: 0, count: 0 };
@@ -52,6 +54,7 @@ const nothing: Plc = {
   lines: [],
   log: [],
   diagnostics: NO_DIAGNOSTICS,
+  deletedBy: null,
 };
 
 export const usePlc = create<Plc>(() => nothing);

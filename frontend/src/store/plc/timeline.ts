@@ -32,7 +32,7 @@ interface Run {
   aim: number | null;
   refused: string | null;
   /** Name of the test that was just made of the run, and downloaded. */
-  made: string | null;
+  made: { name: string; expects: boolean } | null;
   /** Where somebody wants to go who would take others along: they choose first. */
   asking: Moment | null;
   /** The scans that are selected, both included; null while none are. */
@@ -171,9 +171,13 @@ export async function saveScenario(scan: number | null): Promise<void> {
   if (instance === null) return;
   try {
     const text = await blob(`/instances/${instance.id}/scenario${scan === null ? "" : `?scan=${scan}`}`);
-    const scans = /^scans: (\d+)/m.exec(await text.text())?.[1] ?? "0";
-    const made = `${instance.name}-${scans}-scans.scenario.yaml`;
-    saveFile(text, made);
+    const content = await text.text();
+    const scans = /^scans: (\d+)/m.exec(content)?.[1] ?? "0";
+    const made = {
+      name: `${instance.name}-${scans}-scans.scenario.yaml`,
+      expects: /^expect:/m.test(content),
+    };
+    saveFile(text, made.name);
     set({ refused: null, made });
     setTimeout(() => set((now) => (now.made === made ? { made: null } : {})), TOLD_MS);
   } catch (error) {

@@ -14,6 +14,7 @@ import { onInstanceChange } from "../plc/reset";
 import { check, scheduleCheck } from "./checking";
 import { type BuildState, type Document, isDirty, nothing, patch, useDocuments, withLineFeeds } from "./documentState";
 import { drop, dropAll, followDrafts, join, joinAgain, leave, refresh, sharedText, unsent } from "./drafts";
+import { entered } from "./entering";
 import { bringDraft, forgetDraft, type KeptDraft, keepPlain, keepUnsent, recallDraft } from "./keptDrafts";
 
 export { type Document, isDirty, useDocuments } from "./documentState";
@@ -294,6 +295,8 @@ export async function build(
     set({ build: refusedBuild(t(why)), asking: null });
     return;
   }
+  // What is refused stays in its field, with the reason: the text is not what somebody wants to run.
+  if (!(await entered())) return;
   set({ build: { phase: "running" }, asking: null });
   try {
     for (const document of Object.values(open)) {

@@ -147,6 +147,9 @@ export const past = {
   "rerun.where": "before scan {scan}",
   "scenario.failed": "No test could be made: {message}",
   "scenario.made": "Test downloaded: {name}",
+  "scenario.made.nothing": "Test downloaded, it expects nothing: {name}",
+  "scenario.made.nothing.hint":
+    "The program has no variable at an output, so there was nothing to expect. Write what is to hold below expect: in the file.",
   "scenario.now": "Make a test of this run (scenario of what people did)",
   "scenario.make": "Make a test of the run before scan {scan}",
   "stretch.changes": "What changed in scans {first} to {last}",

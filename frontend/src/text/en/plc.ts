@@ -134,6 +134,7 @@ export const plc = {
   "instances.delete.about":
     "Its memory, its run and its error history are deleted for everybody. You cannot undo this. Export the run first to keep it.",
   "instances.delete.do": "Delete",
+  "instances.delete.here": "At it now: {names}. They are told that you deleted it.",
   "instances.delete.hint": "The project and its files are kept.",
   "instances.delete.title": "Delete {name}",
   "instances.export": "Export",
@@ -191,6 +192,12 @@ export const plc = {
   "model.retain": "Retained",
   "model.retain.yes": "kept",
   "no_space.title": "The PLC waits for disk space.",
+  "gone.about":
+    "Its memory, its run and its error history are gone; the project and its files are kept. What you see is the last of it.",
+  "gone.choose": "Instances…",
+  "gone.open": "Open {name}",
+  "gone.project": "Open {name} without a PLC",
+  "gone.title": "{by} deleted {name}.",
   "off.about": "Its memory and its run are kept. When you switch it on, it continues where it stopped.",
   "off.title": "{name} is switched off.",
   "permit.failed": "The PLC failed. Start it again, build a corrected program, or begin a new run.",

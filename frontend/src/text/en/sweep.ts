@@ -74,6 +74,7 @@ export const sweep = {
   "sweep.count.stored_only": "Stored only, without a grade",
   "sweep.count.no_effect": "Read, no effect",
   "sweep.count.reacted": "Reacted, without a grade",
+  "sweep.count.unmet": "Not as required",
   "sweep.count.stopped": "Stopped, as specified by the model",
   "sweep.counts": "Results, as a filter",
   "sweep.delete.about": "The sweep is deleted for everybody. You cannot undo this.",

@@ -147,6 +147,9 @@ export const past: Record<keyof typeof english, string> = {
   "rerun.where": "スキャン {scan} の前",
   "scenario.failed": "テストを作成できません：{message}",
   "scenario.made": "テストをダウンロードしました：{name}",
+  "scenario.made.nothing": "テストをダウンロードしました（期待値なし）: {name}",
+  "scenario.made.nothing.hint":
+    "出力に割り付けられた変数がないため、期待値がありません。ファイルの expect: の下に、成り立つべきことを書いてください。",
   "scenario.now": "この実行からテストを作成（人が行った操作のシナリオ）",
   "scenario.make": "スキャン {scan} までの操作からテストを作成",
   "stretch.changes": "スキャン {first} から {last} の変化",

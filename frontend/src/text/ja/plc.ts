@@ -136,6 +136,7 @@ export const plc: Record<keyof typeof english, string> = {
   "instances.delete.about":
     "メモリ、実行、異常履歴が全員から削除され、元に戻せません。残すには先にエクスポートしてください。",
   "instances.delete.do": "削除",
+  "instances.delete.here": "現在使用中: {names}。削除したことが通知されます。",
   "instances.delete.hint": "プロジェクトとファイルは残ります。",
   "instances.delete.title": "{name} を削除",
   "instances.export": "エクスポート",
@@ -192,6 +193,12 @@ export const plc: Record<keyof typeof english, string> = {
   "model.retain": "保持",
   "model.retain.yes": "保持",
   "no_space.title": "PLC はディスクの空きを待っています。",
+  "gone.about":
+    "メモリ、実行記録、エラー履歴は失われました。プロジェクトとファイルは残っています。表示は最後の状態です。",
+  "gone.choose": "インスタンス…",
+  "gone.open": "{name} を開く",
+  "gone.project": "PLC なしで {name} を開く",
+  "gone.title": "{by} が {name} を削除しました。",
   "off.about": "メモリと実行は残っています。電源を入れると、止まった所から続きます。",
   "off.title": "{name} は電源が切れています。",
   "permit.failed":

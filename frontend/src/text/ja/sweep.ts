@@ -74,6 +74,7 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.count.stored_only": "保存のみ（等級なし）",
   "sweep.count.no_effect": "参照のみ、影響なし",
   "sweep.count.reacted": "反応あり（等級なし）",
+  "sweep.count.unmet": "要求を満たさない",
   "sweep.count.stopped": "機種どおり停止",
   "sweep.counts": "結果（絞り込み）",
   "sweep.delete.about": "全員に対して削除され、元に戻せません。",

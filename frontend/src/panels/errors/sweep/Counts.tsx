@@ -39,6 +39,8 @@ export function Counts({ sweep, view, onView }: Props) {
         .map((verdict) =>
           filter(verdict, VERDICT_ICONS[verdict], verdict, t(`sweep.count.${verdict}`), counts.verdicts[verdict]),
         )}
+      {(counts.unmet > 0 || view.verdict === "unmet") &&
+        filter("unmet", "error", "unmet", t("sweep.count.unmet"), counts.unmet)}
       {counts.accepted > 0 && filter("accepted", "check", "never", t("sweep.accepted"), counts.accepted)}
       {counts.none > 0 && filter("none", "never", "never", t("sweep.none"), counts.none)}
       {counts.left > 0 && (

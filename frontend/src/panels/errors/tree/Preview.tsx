@@ -1,4 +1,4 @@
-import { useState } from "react";
+import { useContext, useState } from "react";
 import { inNames } from "../../../logic/errors/catalogue";
 import { grouped } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
@@ -6,6 +6,7 @@ import { usePreview } from "../../../store/errors/preview";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { InSight } from "../../../ui/inSight";
 import type { GenerateOne, PreviewedWrite } from "../../../wire/types";
 
 interface Props {
@@ -26,9 +27,11 @@ interface Props {
 
 /** What raising these errors would write, address by address. */
 export function Preview({ wanted, of, valid, again = false, now = true, anyway = false, named = false }: Props) {
+  // While a different tab is in front nothing is asked, whatever comes and goes.
+  const inSight = useContext(InSight);
   // A preview of writes from now on says nothing about a scan in the past.
   const past = usePlc((plc) => Boolean(plc.state?.past));
-  const { preview, refused } = usePreview(valid && !past ? wanted : null, again, anyway);
+  const { preview, refused } = usePreview(valid && !past && inSight ? wanted : null, again, anyway);
   const { errors: known } = useCatalogue();
   // While the PLC runs, the scan number is over before anybody reads it.
   const running = usePlc((plc) => plc.state?.state === "running");

@@ -2,13 +2,14 @@ import { act, cleanup, render, screen, waitFor, within } from "@testing-library/
 import type { UserEvent } from "@testing-library/user-event";
 import { expect, test } from "vitest";
 import { grouped } from "../../../logic/format/numbers";
+import { useBench } from "../../../store/plc/bench";
 import { useLinks } from "../../../store/plc/links";
 import { travel } from "../../../store/plc/timeline";
 import { follow } from "../../../store/project/people";
 import { BATTERY, RAISED, row } from "../../../testing/catalogue";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
-import { JO, MIKA, someInstance } from "../../../testing/samples";
+import { JO, MIKA, someApp, someInstance } from "../../../testing/samples";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
 import type { InstanceState } from "../../../wire/types";
@@ -214,4 +215,20 @@ test("who would take others to the past is asked: everybody, or oneself alone at
   await user.click(within(alone).getByRole("button"));
   await waitFor(() => expect(screen.queryByRole("region", { name: t("alone.label") })).toBeNull());
   expect(server.askedOf("DELETE", `/instances/${id + 6000}`)).toHaveLength(1);
+});
+
+test("who is at a PLC that somebody deletes is told so, by whom, and is led to a different one", async () => {
+  const { server, user } = await openBanners();
+  const other = { ...someInstance(8, server.instance.project), name: "line-8" };
+  server.on("GET", "", () => ({ ...someApp(server.instance), instances: [other] }));
+  server.say({ type: "instance_deleted", author: "Jo" });
+  server.becomes({ state: "off" });
+  await waitFor(() => expect(alert()).toContain(t("gone.title", { name: server.instance.name, by: "Jo" })));
+  expect(alert()).not.toContain(t("off.about"));
+  expect(screen.queryByRole("button", { name: t("instances.power.on") })).toBeNull();
+  const open = await screen.findByRole("button", { name: t("gone.open", { name: `${other.project.name} / line-8` }) });
+  server.instance = other;
+  await user.click(open);
+  await waitFor(() => expect(useBench.getState().instance?.id).toBe(8));
+  expect(screen.queryByRole("alert")).toBeNull();
 });

@@ -1,6 +1,7 @@
 import { waitsForSpace } from "../../../logic/plc/plcstate";
 import { usePlc } from "../../../store/plc/plc";
 import { AloneBanner } from "./AloneBanner";
+import { DeletedBanner } from "./DeletedBanner";
 import { FatalBanner } from "./FatalBanner";
 import { FollowBanner } from "./FollowBanner";
 import { LinkBanner } from "./LinkBanner";
@@ -34,6 +35,8 @@ export function Banners() {
 
 function PlcBanner() {
   const state = usePlc((plc) => plc.state);
+  const deletedBy = usePlc((plc) => plc.deletedBy);
+  if (deletedBy !== null) return <DeletedBanner by={deletedBy} />;
   if (!state) return null;
   switch (state.state) {
     case "trapped":

@@ -4,6 +4,7 @@ import { loadCommunication, useCommunication } from "../../../store/plc/communic
 import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
+import { useLookedAt } from "../../../ui/inSight";
 import type { Communication } from "../../../wire/types";
 import "./communication.css";
 import { ModbusMap } from "./ModbusMap";
@@ -17,10 +18,11 @@ const ASKED_EVERY = 1000;
 export function CommunicationPage() {
   const { seen, trouble } = useCommunication();
   const instance = useBench((bench) => bench.instance?.id);
+  const lookedAt = useLookedAt();
   // biome-ignore lint/correctness/useExhaustiveDependencies: a different PLC is asked at once
   useEffect(() => {
     void loadCommunication();
-    const timer = setInterval(() => void loadCommunication(), ASKED_EVERY);
+    const timer = setInterval(() => lookedAt() && void loadCommunication(), ASKED_EVERY);
     return () => clearInterval(timer);
   }, [instance]);
 

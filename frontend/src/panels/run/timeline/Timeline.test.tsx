@@ -128,6 +128,6 @@ test("the page says which test was downloaded, and of how many scans", async () 
   await saveScenario(null);
   expect(useTimeline.getState()).toMatchObject({
     refused: null,
-    made: `${server.instance.name}-120-scans.scenario.yaml`,
+    made: { name: `${server.instance.name}-120-scans.scenario.yaml`, expects: false },
   });
 });

@@ -2,9 +2,9 @@ import { useState } from "react";
 import { showCompare } from "../../../store/past/comparisons";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../../store/plc/bench";
 import { showInstances } from "../../../store/plc/instances";
+import { usePlc } from "../../../store/plc/plc";
 import { canChooseFolder, chooseFolder } from "../../../store/project/folderOut";
 import { dropArchive, exportProject, useDropped } from "../../../store/project/newProject";
-import { useShownProgram } from "../../../store/project/shownProgram";
 import { unsavedPaths } from "../../../store/project/unsaved";
 import { openVersions } from "../../../store/project/versions";
 import { openTraceImport } from "../../../store/verify/traceImport";
@@ -31,7 +31,8 @@ export function Picker() {
   const { app, project, instance } = useBench();
   const [asking, setAsking] = useState<Asking>(null);
   const dropped = useDropped(({ archive }) => archive);
-  const shown = useShownProgram(({ version }) => version);
+  // Of the PLC it is what it runs: the project may have a newer version.
+  const runs = usePlc(({ state }) => state?.program_version);
   const model = instance?.model ?? project?.model ?? "";
   return (
     <>
@@ -45,7 +46,7 @@ export function Picker() {
           <span className="cut">
             {project ? `${project.name}${instance ? ` / ${instance.name}` : ""}` : t("picker.none")}
           </span>
-          <span className="cut">{project ? t("picker.about", { model, version: shown ?? project.version }) : ""}</span>
+          <span className="cut">{project ? t("picker.about", { model, version: runs ?? project.version }) : ""}</span>
         </span>
         <Icon name="chev-d" />
       </MenuButton>

@@ -180,3 +180,11 @@ test("an export says that it leaves out what is not saved", async () => {
   expect(server.askedOf("GET", "").length, "the server is asked once").toBe(before + 1);
   expect(textOf(menuItem(t("picker.export")))).toContain(t("picker.export.hint.unsaved", { count: 1 }));
 });
+
+test("at the head is the version that the PLC runs, not the newest of the project", async () => {
+  const { server } = await openBar();
+  const { project, model } = server.instance;
+  server.becomes({ program_version: project.version + 3 });
+  const version = t("picker.about", { model, version: project.version + 3 });
+  await waitFor(() => expect(textOf(button(t("picker.label")))).toContain(version));
+});

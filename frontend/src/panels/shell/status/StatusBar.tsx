@@ -119,7 +119,15 @@ function MadeTest() {
   const made = useTimeline((timeline) => timeline.made);
   return (
     <span role="status">
-      {made !== null && <StateWord tone="info" icon="export" word={t("scenario.made", { name: made })} />}
+      {made?.expects && <StateWord tone="info" icon="export" word={t("scenario.made", made)} />}
+      {made && !made.expects && (
+        <StateWord
+          tone="warning"
+          icon="warning"
+          word={t("scenario.made.nothing", { name: made.name })}
+          title={t("scenario.made.nothing.hint")}
+        />
+      )}
     </span>
   );
 }

@@ -1,6 +1,7 @@
 import { type KeyboardEvent, useCallback, useEffect, useRef, useState } from "react";
 import type { Naming } from "../../../../logic/graphic/edit";
 import type { Spot } from "../../../../logic/graphic/sheet";
+import { entering } from "../../../../store/project/entering";
 import { t } from "../../../../text";
 import { ComboBox } from "../../../../ui/ComboBox";
 import { Icon } from "../../../../ui/Icon";
@@ -57,8 +58,24 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     offering.close();
     // What is typed meanwhile would be lost with the field.
     setWaiting(true);
-    setBad(!(await onTake(wanted, onwards)));
+    const taking = onTake(wanted, onwards).catch(() => false);
+    entering(taking);
+    setBad(!(await taking));
     setWaiting(false);
+  }
+
+  /** The text is as it was. */
+  function giveUp(): void {
+    entering(Promise.resolve(true));
+    onLeave();
+  }
+
+  /** What was typed is taken as by Enter; what was refused already is given up. */
+  function leave(): void {
+    // Not when the whole window loses the focus.
+    if (waiting || document.activeElement === input.current) return;
+    if (bad || text === naming.value) giveUp();
+    else void take(text, false);
   }
 
   function type(typed: string): void {
@@ -69,7 +86,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   }
 
   function onKey({ key, ctrlKey }: KeyboardEvent): boolean {
-    if (key === "Escape") onLeave();
+    if (key === "Escape") giveUp();
     else if (waiting) return true;
     // A contact or coil of a name that is new: it is declared.
     else if (ctrlKey && key === "Enter" && naming.offers === "bool") void take(`${text} : BOOL`, false);
@@ -82,7 +99,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   function onEscape(event: KeyboardEvent): void {
     if (event.key !== "Escape" || text !== naming.value) return;
     event.stopPropagation();
-    onLeave();
+    giveUp();
   }
 
   return (
@@ -108,7 +125,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
           onType={type}
           onTake={({ path }, by) => void take(text.replace(WORD, "") + path, by === "Tab")}
           onKey={onKey}
-          onBlur={onLeave}
+          onBlur={leave}
         />
         <button
           type="button"

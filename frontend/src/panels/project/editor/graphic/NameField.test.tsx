@@ -1,0 +1,56 @@
+import { render, screen, waitFor } from "@testing-library/react";
+import userEvent from "@testing-library/user-event";
+import { expect, test } from "vitest";
+import { entered } from "../../../../store/project/entering";
+import { NameField } from "./NameField";
+
+const NAMING = { value: "start", offers: "bool", taken: () => null } as const;
+
+function openField(accepted: boolean) {
+  const done: string[] = [];
+  render(
+    <>
+      <NameField
+        naming={NAMING}
+        spot={{ x: 0, y: 0, width: 100 }}
+        label="name"
+        names={() => Promise.resolve([])}
+        onTake={(text) => {
+          done.push(`take ${text}`);
+          return Promise.resolve(accepted);
+        }}
+        onLeave={() => done.push("leave")}
+      />
+      <button type="button">Build</button>
+    </>,
+  );
+  return { user: userEvent.setup(), done, field: screen.getByRole("combobox", { name: "name" }) };
+}
+
+test("what is typed is taken when the field is left by a click, and whoever builds waits for it", async () => {
+  const { user, done, field } = openField(true);
+  await user.clear(field);
+  await user.type(field, "stop");
+  await user.click(screen.getByRole("button", { name: "Build" }));
+  await expect(entered()).resolves.toBe(true);
+  expect(done).toEqual(["take stop"]);
+});
+
+test("what is refused keeps the build back once, and is given up at the next click", async () => {
+  const { user, done, field } = openField(false);
+  await user.clear(field);
+  await user.type(field, "2 x");
+  await user.click(screen.getByRole("button", { name: "Build" }));
+  await expect(entered()).resolves.toBe(false);
+  await waitFor(() => screen.getByRole("alert"));
+  await user.click(field);
+  await user.click(screen.getByRole("button", { name: "Build" }));
+  expect(done).toEqual(["take 2 x", "leave"]);
+  await expect(entered()).resolves.toBe(true);
+});
+
+test("a field in which nothing was typed is left as it was", async () => {
+  const { user, done } = openField(true);
+  await user.click(screen.getByRole("button", { name: "Build" }));
+  expect(done).toEqual(["leave"]);
+});
