@@ -80,7 +80,7 @@ def test_a_branch_goes_on_from_a_scan(plc: Plc) -> None:
 
 
 def test_a_run_goes_to_a_file_and_comes_back(plc: Plc, server: Server) -> None:
-    taken = connect(server.address).take_run(plc.export_run(scan=4), "taken")
+    taken = connect(server.address).take_run(plc.export_run(scan=4), "a run that was taken")
     assert (scan(taken), taken.read("Main.n")) == (4, "4")
     taken.delete()
 
