@@ -71,6 +71,8 @@ class Enumeration(Elementary):
     values: tuple[tuple[str, int], ...] = ()
     """As declared, in their order."""
     base_name: str = "INT"
+    named: bool = False
+    """As text a value is its name, and not its number."""
     _numbers: dict[str, int] = field(init=False, compare=False, repr=False, default_factory=dict)
 
     def __post_init__(self) -> None:

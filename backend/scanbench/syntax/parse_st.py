@@ -16,6 +16,7 @@ REFUSED = {
     "VAR_CONFIG": "write it inside of the CONFIGURATION",
     "VAR_ACCESS": "write it inside of the CONFIGURATION",
 }
+TO_STRING = re.compile(r"\{\s*attribute\s*(?::=)?\s*'to_string'", re.IGNORECASE)
 QUALIFIED_ONLY = re.compile(r"\{\s*attribute\s*(?::=)?\s*'qualified_only'", re.IGNORECASE)
 
 
@@ -138,7 +139,7 @@ def _namespace(c: Cursor, result: tree.File) -> None:
 
 def _types(c: Cursor, result: tree.File) -> None:
     start = c.take()
-    qualified_only = _qualified_only(c, start)
+    qualified_only, to_string = _has(c, start, QUALIFIED_ONLY), _has(c, start, TO_STRING)
     access = "PUBLIC"
     if c.word() in ("PUBLIC", "INTERNAL") and c.kinds[c.at + 1] is NAME:
         access = c.word()
@@ -148,7 +149,7 @@ def _types(c: Cursor, result: tree.File) -> None:
         if c.accept(";"):
             continue
         try:
-            result.types.append(_type(c, qualified_only, access))
+            result.types.append(_type(c, qualified_only, to_string, access))
         except Unexpected:
             c.depth = depth
             _skip_type(c)
@@ -162,10 +163,10 @@ def _skip_type(c: Cursor) -> None:
             return
 
 
-def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
+def _type(c: Cursor, qualified_only: bool, to_string: bool, access: str) -> tree.TypeDeclaration:
     policy = parse_type.subrange_policy(c)
     name = c.name("the name of a type")
-    qualified_only = qualified_only or _qualified_only(c, name)
+    qualified_only, to_string = qualified_only or _has(c, name, QUALIFIED_ONLY), to_string or _has(c, name, TO_STRING)
     extends = None
     if c.word() == "EXTENDS":
         c.take()
@@ -176,12 +177,21 @@ def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
     if not isinstance(spec, tree.StructSpec) or c.is_(";"):
         c.close(";", f"after the declaration of `{c.texts[name]}`")
     return tree.TypeDeclaration(
-        c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, qualified_only, policy
+        c.texts[name],
+        spec,
+        initial,
+        c.span_of(name),
+        c.namespace,
+        c.visible,
+        access,
+        qualified_only,
+        policy,
+        to_string,
     )
 
 
-def _qualified_only(c: Cursor, token: int) -> bool:
-    """Whether the vendor's attribute comes immediately before this token."""
+def _has(c: Cursor, token: int, attribute: re.Pattern[str]) -> bool:
+    """Whether this attribute of a vendor comes immediately before this token."""
     first = c.end_of(token - 1) if token else 0
     last = c.starts[token]
-    return any(first <= at < last and QUALIFIED_ONLY.match(text) for at, text in c.pragmas)
+    return any(first <= at < last and attribute.match(text) for at, text in c.pragmas)

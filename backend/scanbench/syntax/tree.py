@@ -289,6 +289,8 @@ class TypeDeclaration:
     qualified_only: bool = False
     """An enumeration whose values are only known with its name in front (a vendor's attribute)."""
     policy: str = ""  # as of a variable
+    to_string: bool = False
+    """An enumeration whose values become their names as text (a vendor's attribute)."""
 
 
 @node

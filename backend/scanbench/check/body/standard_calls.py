@@ -15,6 +15,7 @@ from scanbench.check.body.lenient import (
     shifted,
     shifted_with_sign,
 )
+from scanbench.check.body.named_texts import name_of
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
@@ -45,6 +46,7 @@ from scanbench.program.types import (
     TIME,
     ULINT,
     Elementary,
+    Enumeration,
     Kind,
     Reference,
     StringType,
@@ -306,6 +308,8 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         may(body, Allowance.HALVES_AWAY),
     )
     value = wide.settled(body, value)
+    if isinstance(value.type, Enumeration) and value.type.named and isinstance(target, StringType):
+        return name_of(body, value, value.type, target, partial(_library, body), node.span)
     result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, vendor)
     if isinstance(result, str):
         raise body.report.reject("T002", f"There is no conversion {name}{result}", node.span)

@@ -1,5 +1,7 @@
 """Declarations -> types: the one place where what makes types and what asks for them meet."""
 
+from dataclasses import replace
+
 from scanbench.check.context import Report
 from scanbench.check.declare.blocks import block
 from scanbench.check.declare.declarations import ConstantOf, Declarations
@@ -11,6 +13,9 @@ from scanbench.check.declare.specs import enumeration, structure, subrange, type
 from scanbench.plcmodel.model import Model
 from scanbench.program.types import SLOT_BYTES, Kind, Reference, Type, initial_of
 from scanbench.syntax import tree
+
+NAMED_TEXTS = ("codesys", "twincat")
+"""Dialects in which the attribute `to_string` means something."""
 
 
 def declarations_of(report: Report, model: Model, areas: dict[str, int], constant_of: ConstantOf) -> Declarations:
@@ -31,6 +36,8 @@ def _named_type(declared: Declarations, declaration: tree.TypeDeclaration) -> Ty
             made: Type = structure(declared, name, spec)
         case tree.EnumSpec() as spec:
             made = enumeration(declared, spec, name)
+            if declaration.to_string and declared.dialect.name in NAMED_TEXTS:
+                made = replace(made, named=True)
         case tree.SubrangeSpec() as spec:
             made = subrange(declared, spec, name)
         case spec:
