@@ -6,7 +6,7 @@ import { NameField } from "./NameField";
 
 const NAMING = { value: "start", offers: "bool", taken: () => null } as const;
 
-function openField(accepted: boolean) {
+function openField(accepted: boolean, moves = false) {
   const done: string[] = [];
   render(
     <>
@@ -17,6 +17,7 @@ function openField(accepted: boolean) {
         names={() => Promise.resolve([])}
         onTake={(text) => {
           done.push(`take ${text}`);
+          if (moves) screen.getByRole("button", { name: "Build" }).focus();
           return Promise.resolve(accepted);
         }}
         onLeave={() => done.push("leave")}
@@ -53,4 +54,12 @@ test("a field in which nothing was typed is left as it was", async () => {
   const { user, done } = openField(true);
   await user.click(screen.getByRole("button", { name: "Build" }));
   expect(done).toEqual(["leave"]);
+});
+
+test("what Enter takes is taken once, although the drawing takes the focus meanwhile", async () => {
+  const { user, done, field } = openField(true, true);
+  await user.clear(field);
+  await user.type(field, "stop{Enter}");
+  await expect(entered()).resolves.toBe(true);
+  expect(done).toEqual(["take stop"]);
 });

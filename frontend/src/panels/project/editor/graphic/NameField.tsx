@@ -29,6 +29,8 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   const [text, setText] = useState(naming.value);
   const [bad, setBad] = useState(false);
   const [waiting, setWaiting] = useState(false);
+  /** The same at once: what is taken moves the focus before the field is drawn again. */
+  const taken = useRef(false);
   const input = useRef<HTMLInputElement>(null);
   const all = useRef<Promise<readonly Offer[]>>(undefined);
   const offered = useCallback(async (typed: string): Promise<readonly Offer[]> => {
@@ -55,12 +57,15 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   }, []);
 
   async function take(wanted: string, onwards: boolean): Promise<void> {
+    if (taken.current) return;
+    taken.current = true;
     offering.close();
     // What is typed meanwhile would be lost with the field.
     setWaiting(true);
     const taking = onTake(wanted, onwards).catch(() => false);
     entering(taking);
     setBad(!(await taking));
+    taken.current = false;
     setWaiting(false);
   }
 
@@ -73,7 +78,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   /** What was typed is taken as by Enter; what was refused already is given up. */
   function leave(): void {
     // Not when the whole window loses the focus.
-    if (waiting || document.activeElement === input.current) return;
+    if (taken.current || document.activeElement === input.current) return;
     if (bad || text === naming.value) giveUp();
     else void take(text, false);
   }
