@@ -71,8 +71,7 @@ class Enumeration(Elementary):
     values: tuple[tuple[str, int], ...] = ()
     """As declared, in their order."""
     base_name: str = "INT"
-    named: bool = False
-    """As text a value is its name, and not its number."""
+    named: bool = False  # as text a value is its name, and not its number
     _numbers: dict[str, int] = field(init=False, compare=False, repr=False, default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -103,8 +102,7 @@ class Reference(Elementary):
     target: "Type | None" = None
     """None for NULL, which fits every reference."""
     pointer: bool = False  # POINTER TO: it can be computed with, in bytes
-    automatic: bool = False
-    """REFERENCE TO: every use of the variable dereferences it."""
+    automatic: bool = False  # REFERENCE TO: every use of the variable dereferences it
 
 
 @dataclass(frozen=True, slots=True)

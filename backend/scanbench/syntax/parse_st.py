@@ -16,8 +16,7 @@ REFUSED = {
     "VAR_CONFIG": "write it inside of the CONFIGURATION",
     "VAR_ACCESS": "write it inside of the CONFIGURATION",
 }
-TO_STRING = re.compile(r"\{\s*attribute\s*(?::=)?\s*'to_string'", re.IGNORECASE)
-QUALIFIED_ONLY = re.compile(r"\{\s*attribute\s*(?::=)?\s*'qualified_only'", re.IGNORECASE)
+ATTRIBUTES = re.compile(r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string)'", re.IGNORECASE)
 
 
 def parse_st(source: Source) -> tuple[tree.File, list[Problem]]:
@@ -139,7 +138,7 @@ def _namespace(c: Cursor, result: tree.File) -> None:
 
 def _types(c: Cursor, result: tree.File) -> None:
     start = c.take()
-    qualified_only, to_string = _has(c, start, QUALIFIED_ONLY), _has(c, start, TO_STRING)
+    attributes = _attributes(c, start)
     access = "PUBLIC"
     if c.word() in ("PUBLIC", "INTERNAL") and c.kinds[c.at + 1] is NAME:
         access = c.word()
@@ -149,7 +148,7 @@ def _types(c: Cursor, result: tree.File) -> None:
         if c.accept(";"):
             continue
         try:
-            result.types.append(_type(c, qualified_only, to_string, access))
+            result.types.append(_type(c, attributes, access))
         except Unexpected:
             c.depth = depth
             _skip_type(c)
@@ -163,10 +162,10 @@ def _skip_type(c: Cursor) -> None:
             return
 
 
-def _type(c: Cursor, qualified_only: bool, to_string: bool, access: str) -> tree.TypeDeclaration:
+def _type(c: Cursor, attributes: tuple[str, ...], access: str) -> tree.TypeDeclaration:
     policy = parse_type.subrange_policy(c)
     name = c.name("the name of a type")
-    qualified_only, to_string = qualified_only or _has(c, name, QUALIFIED_ONLY), to_string or _has(c, name, TO_STRING)
+    attributes = (*attributes, *_attributes(c, name))
     extends = None
     if c.word() == "EXTENDS":
         c.take()
@@ -177,21 +176,13 @@ def _type(c: Cursor, qualified_only: bool, to_string: bool, access: str) -> tree
     if not isinstance(spec, tree.StructSpec) or c.is_(";"):
         c.close(";", f"after the declaration of `{c.texts[name]}`")
     return tree.TypeDeclaration(
-        c.texts[name],
-        spec,
-        initial,
-        c.span_of(name),
-        c.namespace,
-        c.visible,
-        access,
-        qualified_only,
-        policy,
-        to_string,
+        c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, attributes, policy
     )
 
 
-def _has(c: Cursor, token: int, attribute: re.Pattern[str]) -> bool:
-    """Whether this attribute of a vendor comes immediately before this token."""
+def _attributes(c: Cursor, token: int) -> tuple[str, ...]:
+    """Those of a vendor that come immediately before this token."""
     first = c.end_of(token - 1) if token else 0
     last = c.starts[token]
-    return any(first <= at < last and attribute.match(text) for at, text in c.pragmas)
+    found = (ATTRIBUTES.match(text) for at, text in c.pragmas if first <= at < last)
+    return tuple(each.group(1).lower() for each in found if each)

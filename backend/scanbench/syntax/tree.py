@@ -286,11 +286,9 @@ class TypeDeclaration:
     namespace: str = ""
     using: tuple[str, ...] = ()
     access: str = "PUBLIC"  # or INTERNAL, of a namespace
-    qualified_only: bool = False
-    """An enumeration whose values are only known with its name in front (a vendor's attribute)."""
+    attributes: tuple[str, ...] = ()
+    """Those of a vendor that mean something of an enumeration: `qualified_only` (values have its name in front), `to_string`."""
     policy: str = ""  # as of a variable
-    to_string: bool = False
-    """An enumeration whose values become their names as text (a vendor's attribute)."""
 
 
 @node

@@ -36,7 +36,7 @@ def _named_type(declared: Declarations, declaration: tree.TypeDeclaration) -> Ty
             made: Type = structure(declared, name, spec)
         case tree.EnumSpec() as spec:
             made = enumeration(declared, spec, name)
-            if declaration.to_string and declared.dialect.name in NAMED_TEXTS:
+            if "to_string" in declaration.attributes and declared.dialect.name in NAMED_TEXTS:
                 made = replace(made, named=True)
         case tree.SubrangeSpec() as spec:
             made = subrange(declared, spec, name)

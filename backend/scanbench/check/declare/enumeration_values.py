@@ -45,7 +45,7 @@ class EnumerationValues:
         return [
             name
             for declaration in self._trees.values()
-            if isinstance(declaration.type, tree.EnumSpec) and not declaration.qualified_only
+            if isinstance(declaration.type, tree.EnumSpec) and "qualified_only" not in declaration.attributes
             for name, _, _ in declaration.type.values
         ]
 
@@ -54,7 +54,7 @@ class EnumerationValues:
             self._known = len(self._trees)
             self._by_value = {}
             for key, declaration in self._trees.items():
-                if isinstance(declaration.type, tree.EnumSpec) and not declaration.qualified_only:
+                if isinstance(declaration.type, tree.EnumSpec) and "qualified_only" not in declaration.attributes:
                     for name, _, _ in declaration.type.values:
                         self._by_value.setdefault(name.upper(), []).append(key)
         return self._by_value
