@@ -126,8 +126,11 @@ export class Editor {
 
   async caretAfter(part: string): Promise<void> {
     await expect(this.region.locator('.view-line').first()).toBeVisible();
-    await this.reveal(part);
-    await this.line(part).first().click();
+    // The lines of the sections above are drawn later than the text, and may cover the line by then.
+    await expect(async () => {
+      await this.reveal(part);
+      await this.line(part).first().click({ timeout: 2_000 });
+    }).toPass();
     await this.page.keyboard.press('End');
   }
 

@@ -21,11 +21,10 @@ from scanbench.server.twincat_project import TwinCatProject
 from scanbench.syntax.language_file import (
     DIALECTS,
     LANGUAGE_FILE,
-    STRICT,
-    dialect_by_format,
     dialect_named,
-    is_language_file,
+    dialect_of,
     with_dialect,
+    with_dialect_by_format,
 )
 from scanbench.wire.refused import Refused
 
@@ -107,11 +106,12 @@ def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool 
         if named is None:
             usage(f"there is no dialect {dialect}: write one of {', '.join(DIALECTS)}")
         texts = with_dialect(texts, named, str(folder / LANGUAGE_FILE))
-    elif not any(map(is_language_file, texts)) and (of_format := dialect_by_format(texts)) != STRICT:
+    elif (in_dialect := with_dialect_by_format(texts, str(folder / LANGUAGE_FILE))) != texts:
+        texts = in_dialect
+        of_format = dialect_of(texts)[0]
         typer.echo(
             f"scanbench: {of_format} programs by the format of their files (--dialect names a different one)", err=True
         )
-        texts = with_dialect(texts, of_format, str(folder / LANGUAGE_FILE))
     made = completed(texts, projects, str(folder)) if libraries else texts
     return Sources(made, model, tuple(unknown_libraries(projects, made)))
 

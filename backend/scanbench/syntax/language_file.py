@@ -90,6 +90,14 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
     return {**sources, own: language_text(dialect, said.namespaces, version, said.defines, _words(said))}
 
 
+def with_dialect_by_format(sources: Mapping[str, str], name: str = LANGUAGE_FILE) -> dict[str, str]:
+    """The sources, in the dialect of their files' format if they name none; `name` is that of the file that says so then."""
+    of_format = dialect_by_format(sources)
+    if of_format == STRICT or any(map(is_language_file, sources)):
+        return dict(sources)
+    return with_dialect(sources, of_format, name)
+
+
 def with_subranges(
     sources: Mapping[str, str], policies: Mapping[str, str], name: str = LANGUAGE_FILE
 ) -> dict[str, str]:  # fmt: skip
@@ -219,16 +227,16 @@ def dialect_by_format(names: Iterable[str]) -> DialectName:
 def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> DialectName:
     """The dialect that imported programs are probably written in; `others` are files that were not taken over."""
     names = [name.lower() for name in (*files, *others)]
-    if any(name.endswith((".plcproj", ".tsproj", *XML_ENDINGS)) for name in names):
-        return "twincat"
+    if (of_format := dialect_by_format(names)) != STRICT:
+        return of_format
     programs = [text for name, text in files.items() if is_program_file(name)]
     if any(map(_TWINCAT_MARKS.search, programs)):
         return "twincat"
     exported = any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
-    if any(name.endswith((".scl", ".udt", ".awl", "apax.yml")) for name in names) or any(map(is_scl, files)):
+    if any(name.endswith((".awl", "apax.yml")) for name in names) or any(map(is_scl, files)):
         return "siemens"
-    if any(name.endswith((".l5x", ".acd")) for name in names):
+    if any(name.endswith(".acd") for name in names):
         return "rockwell"
     return "omron" if any(name.endswith((".smc2", ".cxp", ".cxt")) for name in names) else STRICT

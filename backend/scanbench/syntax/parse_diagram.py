@@ -1,10 +1,14 @@
 """Function block diagrams -> tree: one box a line, in the order of execution. A bad line is reported and skipped."""
 
+from collections.abc import Callable
+from typing import TypeVar
+
 from scanbench.syntax import networks, parse_expression, parse_type, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_expression import FUNCTION_FORMS
 
+T = TypeVar("T")
 EDGES = {"R_EDGE": "P", "F_EDGE": "N"}
 STARTS = frozenset((NAME, Lex.ADDRESS))
 
@@ -118,7 +122,7 @@ def _box(c: Cursor) -> networks.Function | None:
     name = tree.Name(c.texts[start], c.span_of(start))
     callee = name if form else parse_expression.postfix(c, name, calls=False)
     if c.is_("("):
-        arguments = _arguments(c)
+        arguments = in_box(c, _argument)
         if c.is_(";"):
             return networks.Function(callee, arguments, c.span_from(start))
     c.at, c.depth, c.wires = start, depth, wires
@@ -126,12 +130,13 @@ def _box(c: Cursor) -> networks.Function | None:
     return None
 
 
-def _arguments(c: Cursor) -> tuple[tree.Argument | networks.Pin, ...]:
+def in_box(c: Cursor, argument: Callable[[Cursor], T]) -> tuple[T, ...]:
+    """The arguments of a box in brackets, each read by `argument`."""
     c.expect("(", "to open the box")
     c.enter()
-    found: list[tree.Argument | networks.Pin] = []
+    found: list[T] = []
     while not c.is_(")"):
-        found.append(_argument(c))
+        found.append(argument(c))
         if not c.accept(","):
             break
     c.leave()

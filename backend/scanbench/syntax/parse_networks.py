@@ -172,7 +172,7 @@ def _box(c: Cursor) -> networks.Box:
         result, callee = callee, _variable(c)
     if not c.is_("("):
         raise c.fail("`(` expected: a box is a call, and a variable belongs in `[ ]` or `( )`")
-    arguments = _arguments(c)
+    arguments = parse_diagram.in_box(c, _argument)
     closing, output = c.at - 1, ""
     if c.is_(".") and c.kinds[c.at + 1] is NAME:
         output = c.texts[c.at + 1]
@@ -183,19 +183,6 @@ def _box(c: Cursor) -> networks.Box:
 def _variable(c: Cursor) -> tree.Expression:
     at = c.name("the name of a block or function")
     return parse_expression.postfix(c, tree.Name(c.texts[at], c.span_of(at)), calls=False)
-
-
-def _arguments(c: Cursor) -> tuple[tree.Argument | networks.Branch, ...]:
-    c.expect("(", "to open the box")
-    c.enter()
-    found: list[tree.Argument | networks.Branch] = []
-    while not c.is_(")"):
-        found.append(_argument(c))
-        if not c.accept(","):
-            break
-    c.leave()
-    c.expect(")", "to close the box")
-    return tuple(found)
 
 
 def _argument(c: Cursor) -> tree.Argument | networks.Branch:

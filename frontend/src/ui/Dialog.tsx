@@ -6,6 +6,8 @@ interface Props {
   title: string;
   /** The consequence, in one sentence. */
   about?: string;
+  /** What could not be done or read. */
+  trouble?: string | null;
   width?: number;
   children: ReactNode;
   footer: ReactNode;
@@ -17,7 +19,7 @@ interface Props {
 }
 
 /** A modal dialog: the browser traps the focus, Escape closes. */
-export function Dialog({ title, about, width = 460, children, footer, onClose, onSubmit, onEdit }: Props) {
+export function Dialog({ title, about, trouble, width = 460, children, footer, onClose, onSubmit, onEdit }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   const id = useId();
   useEffect(() => {
@@ -50,7 +52,15 @@ export function Dialog({ title, about, width = 460, children, footer, onClose, o
             <Icon name="x" />
           </button>
         </header>
-        <div className="page">{children}</div>
+        <div className="page">
+          {trouble && (
+            <p className="trouble st fatal" role="alert">
+              <Icon name="error" small />
+              <span>{trouble}</span>
+            </p>
+          )}
+          {children}
+        </div>
         <footer>{footer}</footer>
       </form>
     </dialog>

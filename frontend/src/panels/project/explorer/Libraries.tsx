@@ -16,6 +16,7 @@ export function Libraries({ project, onClose }: { project: number; onClose: () =
     <Dialog
       title={t("libraries")}
       about={t("libraries.about")}
+      trouble={trouble}
       width={640}
       onClose={onClose}
       footer={
@@ -29,11 +30,6 @@ export function Libraries({ project, onClose }: { project: number; onClose: () =
         </>
       }
     >
-      {trouble !== null && (
-        <p className="st fatal" role="alert">
-          {trouble}
-        </p>
-      )}
       {libraries?.length === 0 && <p className="faint">{t("libraries.none")}</p>}
       <ul className="libraries" aria-label={t("libraries")}>
         {libraries?.map((library) => (

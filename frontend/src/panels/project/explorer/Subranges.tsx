@@ -27,6 +27,7 @@ export function Subranges({ project, onClose }: { project: number; onClose: () =
     <Dialog
       title={t("subranges")}
       about={t("subranges.about")}
+      trouble={trouble}
       width={640}
       onClose={onClose}
       footer={
@@ -38,11 +39,6 @@ export function Subranges({ project, onClose }: { project: number; onClose: () =
         </>
       }
     >
-      {trouble !== null && (
-        <p className="st fatal" role="alert">
-          {trouble}
-        </p>
-      )}
       {policies !== null && (
         <>
           <div className="policy">

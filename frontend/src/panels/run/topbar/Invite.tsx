@@ -19,6 +19,7 @@ export function Invite({ onClose }: { onClose: () => void }) {
     <Dialog
       title={t("invite.title")}
       about={t("invite.about")}
+      trouble={refused}
       width={560}
       onClose={onClose}
       footer={
@@ -37,12 +38,6 @@ export function Invite({ onClose }: { onClose: () => void }) {
         </>
       }
     >
-      {refused !== null && (
-        <p className="hint bad" role="alert">
-          <Icon name="error" small />
-          {refused}
-        </p>
-      )}
       <label className="field">
         <span>{t("invite.address")}</span>
         <input className="inp mono" readOnly value={link?.address ?? ""} onFocus={({ target }) => target.select()} />
