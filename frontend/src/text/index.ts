@@ -18,9 +18,10 @@ export function setLanguage(language: Language): void {
 /** The language of the page. */
 export const language = (): Language => current;
 
-/** The text of a key, with each `{name}` replaced by its value. */
+/** The text of a key, with each `{name}` replaced by its value. Where `count` is 1, that of the key with `.one`, if there is one. */
 export function t(key: TextKey, values: object = {}): string {
-  const text = catalogues[current][key];
   const known = values as Record<string, unknown>;
+  const texts: Partial<Record<string, string>> = catalogues[current];
+  const text = (String(known.count) === "1" ? texts[`${key}.one`] : undefined) ?? catalogues[current][key];
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in known ? String(known[name]) : whole));
 }

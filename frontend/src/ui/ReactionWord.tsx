@@ -22,7 +22,7 @@ export function ReactionWord({ reaction: { state, verdict, unmet, message }, tit
     );
   const known = state === "failed" ? null : verdict;
   if (known && unmet > 0) {
-    const word = unmet === 1 ? t("sweep.unmet.one") : t("sweep.unmet", { count: unmet });
+    const word = t("sweep.unmet", { count: unmet });
     const about = `${t(`verdict.${known}`)}: ${word}`;
     return <StateWord tone="unmet" icon="error" word={word} title={[about, title].filter(Boolean).join(" · ")} />;
   }

@@ -152,6 +152,7 @@ export const disturb = {
   "import.trace.lost.many": "Not in this file: {columns}.",
   "import.trace.last": "Last import",
   "import.trace.leftout": "{count} columns are no variables",
+  "import.trace.leftout.one": "1 column is no variable",
   "import.trace.mapping": "Mapping",
   "import.trace.noinstance": "Select a virtual PLC at the top left first: the log is compared with its program.",
   "import.trace.problems": "Problems",

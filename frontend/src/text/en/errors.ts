@@ -131,7 +131,7 @@ export const errors = {
   "device.title": "PLC errors",
   "device.ways":
     "Clear error does what a programming tool does on the device: it takes the error back, but an error whose cause lasts stays. Recover belongs to the simulator: it also removes the cause.",
-  "dialog.about": "{count} of {total} selected errors need details. Nothing is written until you choose Generate.",
+  "dialog.about": "{needing} of {total} selected errors need details. Nothing is written until you choose Generate.",
   "dialog.about.none": "None of the selected errors needs details. Nothing is written until you choose Generate.",
   "dialog.about.one": "The selected error needs details. Nothing is written until you choose Generate.",
   "dialog.alike": "{count} more: {names}",

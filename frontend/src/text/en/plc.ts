@@ -258,7 +258,9 @@ export const plc = {
   "newproject.archive":
     "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a file of PLCopen, IEC 61131-10 (XML) or Studio 5000 (L5X)",
   "newproject.archive.has": "{count} files",
+  "newproject.archive.has.one": "1 file",
   "newproject.archive.left": "{count} files. Left out: {left} ({names})",
+  "newproject.archive.left.one": "1 file. Left out: {left} ({names})",
   "folderout.about":
     "The files of the project as they are saved on the server. Other files in the folder stay as they are.",
   "folderout.changed": "Replaced: the folder has other contents",
@@ -269,6 +271,7 @@ export const plc = {
   "folderout.same": "Files that are the same already: {count}",
   "folderout.title": "Export into the folder {folder}",
   "folderout.write": "Write {count} files",
+  "folderout.write.one": "Write 1 file",
   "folderout.written": "Files written: {count}",
   "xmlout.about":
     "The program of the project as it is saved on the server, for other tools. Pictures are laid out by themselves.",

@@ -103,6 +103,7 @@ export const verify = {
   "verify.inputs": "Inputs, in order of use",
   "verify.input": "input",
   "verify.instances": "{count} instances",
+  "verify.instances.one": "1 instance",
   "verify.keep.about":
     "The author, the time, the program version, the range, the scans and all rows are kept in the project.",
   "verify.keep.do": "Keep",

@@ -154,6 +154,7 @@ export const disturb: Record<keyof typeof english, string> = {
   "import.trace.lost.many": "このファイルにありません: {columns}",
   "import.trace.last": "前回のインポート",
   "import.trace.leftout": "変数ではない列: {count}",
+  "import.trace.leftout.one": "変数ではない列: {count}",
   "import.trace.mapping": "対応付け",
   "import.trace.noinstance": "先に左上で仮想 PLC を選んでください。そのプログラムとログを比較します。",
   "import.trace.problems": "問題",

@@ -131,7 +131,7 @@ export const errors: Record<keyof typeof english, string> = {
   "device.title": "PLC異常",
   "device.ways":
     "「異常解除」は実機でツールが行う操作です。異常を解除しますが、要因が残る異常は残ります。各行の「解除」はシミュレータの操作で、要因も取り除きます。",
-  "dialog.about": "選択した {total} 件のうち {count} 件に詳細が必要です。「発生」までは何も書き込まれません。",
+  "dialog.about": "選択した {total} 件のうち {needing} 件に詳細が必要です。「発生」までは何も書き込まれません。",
   "dialog.about.none": "選択した異常に詳細は不要です。「発生」までは何も書き込まれません。",
   "dialog.about.one": "詳細が必要です。「発生」までは何も書き込まれません。",
   "dialog.alike": "他 {count} 件: {names}",

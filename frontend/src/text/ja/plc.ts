@@ -257,7 +257,9 @@ export const plc: Record<keyof typeof english, string> = {
   "newproject.archive":
     "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、ファイルの zip、PLCopen または IEC 61131-10 のファイル (XML)、または Studio 5000 のファイル (L5X)",
   "newproject.archive.has": "ファイル {count} 件",
+  "newproject.archive.has.one": "ファイル {count} 件",
   "newproject.archive.left": "ファイル {count} 件。取り込まないもの: {left} 件（{names}）",
+  "newproject.archive.left.one": "ファイル {count} 件。取り込まないもの: {left} 件（{names}）",
   "folderout.about": "サーバーに保存済みのプロジェクトのファイルです。フォルダ内のほかのファイルは変更しません。",
   "folderout.changed": "置き換え (フォルダの内容が異なります)",
   "folderout.comparing": "プロジェクトとフォルダを比較しています",
@@ -267,6 +269,7 @@ export const plc: Record<keyof typeof english, string> = {
   "folderout.same": "内容が同じファイル: {count}",
   "folderout.title": "フォルダ {folder} にエクスポート",
   "folderout.write": "{count} 件を書き込む",
+  "folderout.write.one": "{count} 件を書き込む",
   "folderout.written": "書き込んだファイル: {count}",
   "xmlout.about":
     "サーバーに保存済みのプロジェクトのプログラムを、ほかのツール用のファイルにします。図の配置は自動です。",

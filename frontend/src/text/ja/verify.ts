@@ -102,6 +102,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.inputs": "入力（使用順）",
   "verify.input": "入力",
   "verify.instances": "{count} インスタンス",
+  "verify.instances.one": "{count} インスタンス",
   "verify.keep.about": "作成者、日時、プログラムの版、範囲、スキャン、すべての行をプロジェクトに保存します。",
   "verify.keep.do": "保存",
   "verify.keep.label": "名前",

@@ -75,7 +75,7 @@ function changesOf({ differences, difference_count: count }: Reaction) {
   return { outputs, variables, hidden: count - outputs.length };
 }
 
-const reads = (count: number) => (count === 1 ? t("sweep.reads.one") : t("sweep.reads", { count }));
+const reads = (count: number) => t("sweep.reads", { count });
 
 function Fact({ name, value }: { name: string; value: ReactNode }) {
   return (

@@ -134,7 +134,7 @@ function lookOf(slot: Slot): Look {
     return { icon: "error", tone: "unmet", word: t("required.not_tried"), title: note };
   if (verdict === null) return { icon: "never", tone: "dim", word: notRaised(note), title: note };
   if (slot.unmet > 0) {
-    const unmet = slot.unmet === 1 ? t("sweep.unmet.one") : t("sweep.unmet", { count: slot.unmet });
+    const unmet = t("sweep.unmet", { count: slot.unmet });
     return { icon: "error", tone: "unmet", word: unmet, title: `${wordOf(slot)}: ${unmet}` };
   }
   if (isFinding(verdict) && slot.accepted)
@@ -154,7 +154,6 @@ function notRaised(note: string, words = ""): string {
 }
 
 function stoppedIn(states: number): string {
-  if (states === 1) return t("sweep.line.stopped.one");
   return states === 2 ? t("sweep.line.stopped.both") : t("sweep.line.stopped", { count: states });
 }
 

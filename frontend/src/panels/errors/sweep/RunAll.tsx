@@ -94,9 +94,7 @@ export function RunAll() {
           {t("sweep.run.now", { name: instance?.name ?? "" })}{" "}
           <span className="faint">{t("sweep.run.scan", { scan: grouped(scan) })}</span>
         </Radio>
-        {from === "now" && present > 0 && (
-          <p className="hint">{t(present === 1 ? "sweep.run.present.one" : "sweep.run.present", { count: present })}</p>
-        )}
+        {from === "now" && present > 0 && <p className="hint">{t("sweep.run.present", { count: present })}</p>}
         <Radio name="from" on={from === "states"} disabled={states.length === 0} onChoose={() => setFrom("states")}>
           {t("sweep.run.kept")} <span className="faint">{states.length === 0 ? t("sweep.run.kept.none") : ""}</span>
         </Radio>
@@ -154,8 +152,8 @@ function Outlook({ refused, why, count, points, absent }: OutlookProps) {
     );
   return (
     <span className="hint grow" role="status">
-      {why ?? t(points === 1 ? "sweep.run.outlook.one" : "sweep.run.outlook", { count, points })}
-      {absent > 0 && ` ${t(absent === 1 ? "sweep.run.absent.one" : "sweep.run.absent", { count: absent })}`}
+      {why ?? t("sweep.run.outlook", { errors: count, count: points })}
+      {absent > 0 && ` ${t("sweep.run.absent", { count: absent })}`}
     </span>
   );
 }

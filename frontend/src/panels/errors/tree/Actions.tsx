@@ -96,7 +96,7 @@ function Hidden({ count }: { count: number }) {
     <p className="outcome hiddenticks" role="note">
       <Icon name="filter" small />
       <span>
-        {t(count === 1 ? "errors.hidden.one" : "errors.hidden", { count })}{" "}
+        {t("errors.hidden", { count })}{" "}
         <button type="button" className="link" onClick={showAll}>
           {t("errors.hidden.show")}
         </button>{" "}

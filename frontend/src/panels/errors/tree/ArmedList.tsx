@@ -15,7 +15,7 @@ export function ArmedList() {
   return (
     <section className="armed" aria-label={t("armed.label")}>
       <div className="row">
-        <b className="grow">{t(armed.length === 1 ? "armed.count.one" : "armed.count", { count: armed.length })}</b>
+        <b className="grow">{t("armed.count", { count: armed.length })}</b>
         {armed.length > 1 && (
           <button type="button" className="btn quiet sm" {...locked} onClick={() => void disarm(null)}>
             {t("armed.takeback.all")}
@@ -36,9 +36,7 @@ function Fault({ fault, locked }: { fault: ArmedFault; locked: { disabled: boole
   const names = fault.errors.map((id) => byId.get(id)?.name ?? id).join(", ");
   const running = fault.state === "running";
   const facts = [
-    fault.raised === 0
-      ? t("armed.notyet")
-      : t(fault.raised === 1 ? "armed.again.one" : "armed.again", { count: fault.raised }),
+    fault.raised === 0 ? t("armed.notyet") : t("armed.again", { count: fault.raised }),
     fault.next_scan === null ? "" : t("armed.next", { scan: grouped(fault.next_scan) }),
     t("armed.by", { by: fault.by }),
   ];

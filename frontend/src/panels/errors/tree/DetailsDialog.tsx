@@ -144,7 +144,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
 
 function about(needing: number, total: number): string {
   if (needing === 0) return t("dialog.about.none");
-  return total === 1 ? t("dialog.about.one") : t("dialog.about", { count: needing, total });
+  return t("dialog.about", { needing, total, count: total });
 }
 
 /** The PLC's refusal is shown here, and the entries stay as they are. */

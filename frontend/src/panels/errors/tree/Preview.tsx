@@ -81,9 +81,7 @@ export function Preview({ wanted, of, valid, again = false, now = true, anyway =
           <LogWrites writes={shown.filter((write) => write.what === "log")} />
         </div>
       )}
-      {preview && preview.more > 0 && (
-        <p className="faint">{t(preview.more === 1 ? "preview.more.one" : "preview.more", { count: preview.more })}</p>
-      )}
+      {preview && preview.more > 0 && <p className="faint">{t("preview.more", { count: preview.more })}</p>}
     </section>
   );
 }
@@ -98,7 +96,7 @@ function LogWrites({ writes }: { writes: readonly PreviewedWrite[] }) {
     <div className="w">
       <span className="mono">{first.address} …</span>
       <button type="button" className="link" onClick={() => setOpen(true)}>
-        {t(writes.length === 1 ? "preview.words.one" : "preview.words", { count: writes.length })}
+        {t("preview.words", { count: writes.length })}
       </button>
       <span className="cut">{t("preview.log")}</span>
     </div>

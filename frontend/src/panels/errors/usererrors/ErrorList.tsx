@@ -81,7 +81,7 @@ interface RowProps {
 function Row({ index, error, wrong, chosen }: RowProps) {
   const name = textOf(error.texts, "en", "name");
   const fatal = error.severity === "fatal";
-  const problems = t(wrong === 1 ? "usererrors.problems.one" : "usererrors.problems", { count: wrong });
+  const problems = t("usererrors.problems", { count: wrong });
   return (
     <div
       id={rowId(index)}

@@ -42,7 +42,7 @@ export function ImportErrors({ onClose }: { onClose: () => void }) {
               {(["add", "replace"] as const).map((each) => (
                 <label key={each} className="row">
                   <input type="radio" name="how" checked={how === each} onChange={() => setHow(each)} />
-                  {count === 1 ? t(`usererrors.import.${each}.one`) : t(`usererrors.import.${each}`, { count })}
+                  {t(`usererrors.import.${each}`, { count })}
                 </label>
               ))}
             </fieldset>

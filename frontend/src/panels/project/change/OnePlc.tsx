@@ -34,7 +34,7 @@ export function OnePlc({ change, chosen, onToggle }: Props) {
         {able && lost > 0 && (
           <span className="st warning">
             <Icon name="init" small />
-            {t(lost === 1 ? "change.lost.one" : "change.lost", { count: grouped(lost) })}
+            {t("change.lost", { count: grouped(lost) })}
           </span>
         )}
         {able && (

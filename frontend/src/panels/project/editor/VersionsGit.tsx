@@ -71,7 +71,7 @@ function Commit({ status }: { status: GitStatus }) {
           <>
             <span className="st warning count" title={unsaved.join("\n")}>
               <Icon name="warning" small />
-              {t(unsaved.length === 1 ? "git.edited.one" : "git.edited", { count: unsaved.length, path: unsaved[0] })}
+              {t("git.edited", { count: unsaved.length, path: unsaved[0] })}
             </span>
             <button type="button" className="btn sm" onClick={() => void saveFirst()}>
               {t("save")}

@@ -177,9 +177,7 @@ function FileMarks({ file, dirty, problems, holds }: Marked) {
   return (
     <>
       {breakpoints > 0 && <span className="bpdot" title={t("debug.bp.count", { count: breakpoints })} />}
-      {errors > 0 && (
-        <span className="bad">{t(errors === 1 ? "explorer.errors.one" : "explorer.errors", { count: errors })}</span>
-      )}
+      {errors > 0 && <span className="bad">{t("explorer.errors", { count: errors })}</span>}
       {dirty && <span className="dirty" title={t(own ? "unsaved" : "unsaved.others")} />}
     </>
   );

@@ -36,9 +36,7 @@ export function StatusBar() {
         </span>
       )}
       {state && state.flavour !== "" && <span title={t("status.flavour.hint")}>{t("status.flavour", state)}</span>}
-      {state !== null && state.restarts > 0 && (
-        <span>{t(state.restarts === 1 ? "status.restarts.one" : "status.restarts", { count: state.restarts })}</span>
-      )}
+      {state !== null && state.restarts > 0 && <span>{t("status.restarts", { count: state.restarts })}</span>}
       {state !== null && state.forces > 0 && (
         <StateWord tone="forced" icon="forced" word={t("force.count", { count: state.forces })} />
       )}
@@ -66,7 +64,7 @@ function Raised() {
       <StateWord
         tone={fatal ? "fatal" : "generated"}
         icon={fatal ? "fatal" : "generated"}
-        word={t(raised.length === 1 ? "status.errors.one" : "status.errors", { count: raised.length })}
+        word={t("status.errors", { count: raised.length })}
       />
     </button>
   );
@@ -77,7 +75,7 @@ function ArmedFaults() {
   if (count === 0) return null;
   return (
     <button type="button" className="link plain" onClick={() => showPanel("errors")}>
-      <StateWord tone="recording" icon="clock" word={t(count === 1 ? "armed.count.one" : "armed.count", { count })} />
+      <StateWord tone="recording" icon="clock" word={t("armed.count", { count })} />
     </button>
   );
 }

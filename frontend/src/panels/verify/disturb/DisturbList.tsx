@@ -14,9 +14,7 @@ export function DisturbList() {
   return (
     <section className="disturblist" aria-label={t("disturb.list")}>
       <div className="row">
-        <b className="grow">
-          {t(disturbances.length === 1 ? "disturb.count.one" : "disturb.count", { count: disturbances.length })}
-        </b>
+        <b className="grow">{t("disturb.count", { count: disturbances.length })}</b>
         <button type="button" className="btn quiet sm" onClick={showCampaigns}>
           {t("campaign.show")}
         </button>
@@ -53,7 +51,7 @@ function Line({ disturbance: { id, text, kind, by, state, fired, next_scan, why 
       ? t("disturb.missed.why", { why })
       : fired === 0
         ? t("disturb.fired.not")
-        : t(fired === 1 ? "disturb.fired.one" : "disturb.fired", { count: grouped(fired) }),
+        : t("disturb.fired", { count: grouped(fired) }),
     next_scan === null ? "" : t("disturb.next", { scan: grouped(next_scan) }),
     t("disturb.by", { by }),
   ];

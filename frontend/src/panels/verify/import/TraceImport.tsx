@@ -148,7 +148,7 @@ function Verdict() {
       {checked && !checked.ok && (
         <span className="st fatal">
           <Icon name="error" small />
-          {t(wrong === 1 ? "import.trace.check.bad.one" : "import.trace.check.bad", {
+          {t("import.trace.check.bad", {
             count: wrong,
           })}
         </span>
@@ -161,7 +161,7 @@ function Verdict() {
       )}
       {checked && checked.missing > 0 && (
         <span className="muted">
-          {t(checked.missing === 1 ? "import.trace.check.missing.one" : "import.trace.check.missing", {
+          {t("import.trace.check.missing", {
             count: grouped(checked.missing),
           })}
         </span>

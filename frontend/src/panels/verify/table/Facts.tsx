@@ -127,8 +127,7 @@ function Hint({ shown, count }: { shown: ShownVerification; count: number }) {
 
 function sayOfAll(info: ShownVerification["info"], kept: number): string {
   const { compared, differing } = info;
-  if (kept === 1) return t("verify.hint.differs.one");
-  if (kept > 1) return t("verify.hint.differs", { count: grouped(kept) });
+  if (kept > 0) return t("verify.hint.differs", { count: grouped(kept) });
   if (differing > 0) return t("verify.hint.forgotten", { count: grouped(differing) });
   if (ranIn(info) > 0) return t("verify.hint.same");
   return t(compared > 0 ? "verify.hint.idle" : "verify.hint.none");
@@ -208,9 +207,7 @@ function Side({ who, type, hex, beside, says }: SideProps) {
       <span className="cut">
         {says}
         {who === "A" && groups && differingBits(groups) > 0 && (
-          <span className="faint">
-            , {t(differingBits(groups) === 1 ? "verify.bits.one" : "verify.bits", { count: differingBits(groups) })}
-          </span>
+          <span className="faint">, {t("verify.bits", { count: differingBits(groups) })}</span>
         )}
       </span>
     </div>
