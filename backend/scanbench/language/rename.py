@@ -19,6 +19,9 @@ from scanbench.syntax.lexer import CONTEXTUAL, KEYWORDS, Lex, Tokens
 from scanbench.syntax.parse_il import MNEMONICS
 
 NAME = re.compile(r"[^\W\d]\w*")
+DRAWN = (".tcpou",)
+"""Files whose bodies may be drawn."""
+DRAWING = re.compile(r"<(?:NWL|SFC|CFC)>.*?</(?:NWL|SFC|CFC)>", re.DOTALL)
 Meaning = Symbol | int
 
 
@@ -39,7 +42,8 @@ def places(reading: Reading, symbol: Symbol, name: str) -> list[Occurrence] | Ca
     if name.upper() in KEYWORDS or name.upper() in ELEMENTARY:
         return CannotRename(f"`{name}` is a keyword of the language.")
     found = references(reading, symbol, declaration=True)
-    return _unknown(reading, symbol.name.rpartition(".")[2], found) or found
+    old = symbol.name.rpartition(".")[2]
+    return _drawn(reading, old) or _unknown(reading, old, found) or found
 
 
 def changed_meaning(
@@ -150,6 +154,15 @@ def _unknown(reading: Reading, name: str, found: list[Occurrence]) -> CannotRena
             place = reading.place(file, position)
             if place not in known and told_at(reading, file, position) is None:
                 return CannotRename(f"`{name}` in {file}:{place[0]} may mean this, too; rename it by hand first.")
+    return None
+
+
+def _drawn(reading: Reading, name: str) -> CannotRename | None:
+    """A use in a drawing of a file, whose text is not all that was read: a new name would not get everywhere."""
+    for file in reading.files:
+        drawn = "".join(DRAWING.findall(reading.text(file))) if file.lower().endswith(DRAWN) else ""
+        if re.search(rf"\b{re.escape(name)}\b", drawn, re.IGNORECASE):
+            return CannotRename(f"`{name}` is drawn in {file}; rename it in TwinCAT.")
     return None
 
 

@@ -82,7 +82,7 @@ def _name(c: Cursor, what: str) -> tree.Name:
 def _association(c: Cursor) -> chart.Association:
     start = c.at
     action = parse_expression.postfix(c, _name(c, "an action, or END_STEP,"), calls=False)
-    written = "".join(c.source.text[c.starts[start] : c.end_of(c.at - 1)].split())
+    written = "".join(c.texts[start : c.at])
     qualifier = "N"
     duration = indicator = None
     if c.accept("("):

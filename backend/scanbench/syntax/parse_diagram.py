@@ -168,6 +168,6 @@ def _pin(c: Cursor, name: str | None, start: int) -> networks.Pin | tree.Express
         return parse_expression.expression(c)
     c.at = at + 1
     operand = parse_expression.operand(c)
-    written = "".join(c.source.text[c.starts[at + 1] : c.end_of(c.at - 1)].split())
+    written = "".join(c.texts[at + 1 : c.at])
     contact = networks.Contact(edge, operand, written, c.span_from(at))
     return networks.Pin(name, contact, negated, c.span_from(start))

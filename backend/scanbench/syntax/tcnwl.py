@@ -6,10 +6,9 @@ refused, by its name.
 """
 
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 
-from scanbench.syntax.lexer import Lex
+from scanbench.syntax.tcarchive import Archive, Line, Network, NotRead, Operand, Piece, Pin
 from scanbench.syntax.xml_outline import Element
 
 NEGATION, SET, JUMP, RETURN, RISING, FALLING = 1, 2, 4, 8, 16, 32
@@ -17,109 +16,21 @@ NEGATION, SET, JUMP, RETURN, RISING, FALLING = 1, 2, 4, 8, 16, 32
 OPERATORS = frozenset(
     "AND OR XOR NOT ADD SUB MUL DIV MOD GT GE EQ LE LT NE MOVE SEL MUX LIMIT MIN MAX SHL SHR ROL ROR ABS SQRT EXPT TRUNC".split()
 )
-"""Boxes whose inputs have no names in our text."""
+"""Boxes whose inputs have no names in our text, unless they have EN."""
+FORMALS = {"SEL": ("G", "IN0", "IN1"), "LIMIT": ("MN", "IN", "MX"), "SHL": ("IN", "N"), "SHR": ("IN", "N"), "ROL": ("IN", "N"), "ROR": ("IN", "N")}  # fmt: skip
+SINGLE = frozenset(("NOT", "MOVE", "ABS", "SQRT", "TRUNC"))
 PLAIN = re.compile(r"[^\W\d][\w.]*(?:\[[^\[\]]*\])?[\w.^]*|%\w[\d.]*")
-_ATTRIBUTES: dict[str, re.Pattern[str]] = {
-    name: re.compile(rf"""\s{name}\s*=\s*["']([^"']*)["']""") for name in ("n", "t", "cet")
-}
 
 
-class NotRead(Exception):
-    """A shape that is not read: why, and the element that has it."""
-
-    def __init__(self, message: str, element: Element) -> None:
-        super().__init__(message)
-        self.message, self.element = message, element
-
-
-@dataclass(frozen=True, slots=True)
-class Operand:
-    """A variable or an expression, where it is written."""
-
-    begin: int
-    end: int
-    text: str
-
-
-Piece = str | Operand
-Pin = tuple[Piece, ...]
-"""What is at an input: made texts, and operands of the file."""
-
-
-@dataclass(slots=True)
-class Line:
-    """A line of a network; `at`: the element that it is of."""
-
-    at: int
-    pieces: Pin
-
-
-@dataclass(slots=True)
-class Network:
-    """One network that is not commented out."""
-
-    at: int
-    label: str
-    lines: list[Line] = field(default_factory=list)
-
-
-class Archive:
-    """Reads the values of the archive's elements: `<o>` an object, `<v>` a value, `<l2>` a list, `<n/>` nothing."""
-
-    def __init__(self, xml: str, text: str) -> None:
-        """`text`: the same with blanks for everything that is markup."""
-        self._xml, self._text = xml, text
-
-    def attribute(self, element: Element, name: str) -> str:
-        """`n` is the member that it is, `t` its type, `cet` the type of what a list has."""
-        found = _ATTRIBUTES[name].search(self._xml, element.start, element.begin)
-        return found.group(1) if found else ""
-
-    def member(self, element: Element, name: str, tag: str = "o") -> Element | None:
-        """The member of an object."""
-        return next((each for each in element.children if each.tag == tag and self.attribute(each, "n") == name), None)
-
-    def value(self, element: Element | None, name: str) -> str:
-        """The text of a member, without the quotes."""
-        found = self.operand(element, name)
-        return found.text if found else ""
-
-    def operand(self, element: Element | None, name: str) -> Operand | None:
-        """A member with its place; None where it has none, or is empty."""
-        found = None if element is None else self.member(element, name, "v")
-        if found is None:
-            return None
-        begin, end = found.begin, found.end
-        while begin < end and self._text[begin] in " \t\r\n":
-            begin += 1
-        while end > begin and self._text[end - 1] in " \t\r\n":
-            end -= 1
-        if end - begin >= 2 and self._text[begin] == self._text[end - 1] == '"':
-            begin, end = begin + 1, end - 1
-        text = self._text[begin:end].strip()
-        return Operand(begin, end, text) if text else None
-
-    def items(self, element: Element | None, name: str) -> list[Element]:
-        """What a list has."""
-        found = None if element is None else self.member(element, name, "l2")
-        return [] if found is None else found.children
-
-    def names(self, element: Element | None) -> list[str]:
-        """The names of the pins of a box."""
-        found = None if element is None else self.member(element, "Names", "l2")
-        return [self._text[each.begin : each.end].strip().strip('"') for each in found.children] if found else []
-
-    def flags(self, element: Element | None) -> int:
-        """Its flags: of an object that has them, or of such an object itself."""
-        if element is None:
-            return 0
-        inner = self.member(element, "Flags")
-        text = self.value(inner if inner is not None else element, "Flags")
-        return int(text) if text.isdigit() else 0
-
-    def type(self, element: Element, listed: str) -> str:
-        """The type of an object; in a list with one type for all it is said there."""
-        return self.attribute(element, "t") or listed
+def formal_names(name: str, count: int) -> tuple[str, ...] | None:
+    """Of an operator with so many inputs besides EN, which then need names; None of any other box, and where the count is not possible."""
+    name = name.upper()
+    if name not in OPERATORS:
+        return None
+    if name == "MUX":
+        return ("K", *(f"IN{at}" for at in range(count - 1)))
+    names = ("IN",) if name in SINGLE else FORMALS.get(name) or tuple(f"IN{at}" for at in range(1, count + 1))
+    return names if len(names) == count else None
 
 
 class _Reader:
@@ -128,6 +39,8 @@ class _Reader:
     def __init__(self, archive: Archive, made: Network, number: int) -> None:
         self._archive, self._made, self._number = archive, made, number
         self._wires = 0
+        self._calls = 0
+        """Of what may do more than give a value."""
 
     def item(self, element: Element, listed: str) -> None:
         """A coil, a box or a wire of the network."""
@@ -142,6 +55,8 @@ class _Reader:
                 return self._assign(element)
             case "BoxTreeBox":
                 return self._box(element, used)
+            case "BoxTreeParallel":
+                return self._parallel(element)
             case "BoxTreeDemux":
                 return self._demux(element)
             case "BoxTreeTerminator":
@@ -179,11 +94,14 @@ class _Reader:
 
     def _wire(self, element: Element, value: Pin, name: str = "") -> Pin:
         """A line that gives a wire its value. What reads it."""
-        if not name:
-            self._wires += 1
-            name = f"n{self._number}_{self._wires}"
+        name = name or self._name()
         self._line(element, "#", name, "=", *value)
         return (f"#{name}",)
+
+    def _name(self) -> str:
+        """Of a wire that is made."""
+        self._wires += 1
+        return f"n{self._number}_{self._wires}"
 
     def _line(self, element: Element, *pieces: Piece) -> None:
         self._made.lines.append(Line(element.start, (*pieces, ";")))
@@ -220,38 +138,72 @@ class _Reader:
         else:
             self._line(target, found, ":=", *(("NOT", "(", *value, ")") if flags & NEGATION else value))
 
+    def _parallel(self, element: Element) -> Pin:
+        """Branches: what comes in, AND the OR of what they give; those after one that is closed are not skipped, unless they hold boxes."""
+        archive = self._archive
+        before = self._input(element)
+        calls = self._calls
+        branches = [self._value(each) for each in archive.items(element, "Trees")]
+        if not branches or not all(branches):
+            raise NotRead(f"A parallel branch in network {self._number} has nothing in it", element)
+        if self._calls > calls and archive.value(element, "Mode") != "Sequential":
+            raise NotRead(
+                f"Network {self._number} calls a block in a branch with short circuit, which is not read", element
+            )
+        either = tuple(piece for each in branches for piece in ("OR", "(", *each, ")"))[1:]
+        return self._wire(element, (*before, "AND", "(", *either, ")") if before and before != ("TRUE",) else either)
+
     def _box(self, element: Element, used: bool) -> Pin:
         archive = self._archive
         name = archive.value(element, "BoxType")
         instance = archive.operand(archive.member(element, "Instance"), "Operand")
-        self._refuse_box(element, name)
-        call: list[Piece] = []
         named = archive.names(archive.member(element, "InputParam"))
         inputs, flags = self._inputs(element), archive.items(element, "InputFlags")
+        enabled = bool(named) and named[0].upper() == "EN"
+        self._refuse_box(element, name, enabled)
+        if enabled and name.upper() in OPERATORS:
+            named = ["EN", *(formal_names(name, len(inputs) - 1) or named[1:])]
+        call: list[Piece] = []
         for index, pin in enumerate(inputs):
-            formal = named[index] if index < len(named) and name.upper() not in OPERATORS else ""
-            if not pin and not (instance and formal):
+            formal = named[index] if index < len(named) and (enabled or name.upper() not in OPERATORS) else ""
+            if not pin and not (formal and (instance or formal.upper() == "EN")):
                 raise NotRead(
                     f"Input {index + 1} of the box {name} in network {self._number} is not connected", element
                 )
-            if pin:
+            if pin and not (formal.upper() == "EN" and pin == ("TRUE",)):
                 own = archive.flags(flags[index]) if index < len(flags) else 0
                 call += [*([","] if call else []), *((formal, ":=") if formal else ()), *self._with(own, pin, element)]
         outs = archive.names(archive.member(element, "OutputParam"))
         targets = archive.items(archive.member(element, "OutputItems"), "OutputItems")
-        if instance is None:
-            return self._function(element, name, (name, "(", *call, ")"), targets, used)
-        self._line(element, instance, "(", *call, ")")
-        for index, target in enumerate(targets):
-            if archive.operand(target, "Operand") and index < len(outs) and outs[index]:
-                self._target(target, archive.flags(target), (instance, ".", outs[index]))
-        if not used:
-            return ()
         main = archive.value(element, "MainOutputIndex")
         which = int(main) if main.isdigit() else 0
-        if which >= len(outs) or not outs[which]:
+        if instance is None:
+            return self._function(element, (name, "(", *call, ")"), outs, targets, which if used else -1)
+        return self._block(element, instance, call, outs, targets, which if used else -1)
+
+    def _block(
+        self, element: Element, instance: Operand, call: list[Piece], outs: list[str], targets: list[Element], used: int
+    ) -> Pin:
+        """A call of a function block; `used`: which output goes on, -1 for none."""
+        archive, eno = self._archive, ""
+        self._calls += 1
+        written = [
+            (index, target)
+            for index, target in enumerate(targets)
+            if archive.operand(target, "Operand") and index < len(outs) and outs[index]
+        ]
+        if any(outs[index].upper() == "ENO" for index in [*(at for at, _ in written), used] if 0 <= index < len(outs)):
+            eno = self._name()
+            call = [*call, *([","] if call else []), "ENO", "=>", f"#{eno}"]
+        self._line(element, instance, "(", *call, ")")
+        values: list[Pin] = [(f"#{eno}",) if each.upper() == "ENO" else (instance, ".", each) for each in outs]
+        for index, target in written:
+            self._target(target, archive.flags(target), values[index])
+        if used < 0:
+            return ()
+        if used >= len(outs) or not outs[used]:
             raise NotRead(f"What the block {instance.text} in network {self._number} gives out has no name", element)
-        return (instance, ".", outs[which])
+        return values[used]
 
     def _inputs(self, element: Element) -> list[Pin]:
         listed = self._archive.member(element, "InputItems", "l2")
@@ -259,27 +211,41 @@ class _Reader:
         found = [] if listed is None else listed.children
         return [() if each.tag == "n" else self._value(each, kind) for each in found]
 
-    def _refuse_box(self, element: Element, name: str) -> None:
+    def _refuse_box(self, element: Element, name: str, enabled: bool) -> None:
         archive = self._archive
-        enabled = archive.member(element, "EN") or archive.value(element, "EN").lower() == "true"
-        if enabled:
-            raise NotRead(f"The box {name} in network {self._number} has EN, which is not read", element)
+        if not enabled and (archive.member(element, "EN") or archive.value(element, "EN").lower() == "true"):
+            raise NotRead(f"The box {name} in network {self._number} has EN, but its first input is not EN", element)
         if archive.value(element, "ProvidesSTSnippet").lower() == "true":
             raise NotRead(f"Network {self._number} has a box with statements (EXECUTE), which is not read", element)
         if not name:
             raise NotRead(f"A box in network {self._number} has no name", element)
 
-    def _function(self, element: Element, name: str, call: Pin, targets: list[Element], used: bool) -> Pin:
-        written = [each for each in targets if self._archive.operand(each, "Operand")]
-        if len([each for each in targets[1:] if each in written]) > 0:
-            raise NotRead(f"The box {name} in network {self._number} has several outputs, which is not read", element)
-        if not written and not used:
+    def _function(self, element: Element, call: Pin, outs: list[str], targets: list[Element], used: int) -> Pin:
+        """A call of a function; its result is the first output that is not ENO, and the others are named."""
+        result = 1 if outs[:1] and outs[0].upper() == "ENO" else 0
+        written = [at for at, each in enumerate(targets) if self._archive.operand(each, "Operand")]
+        values: dict[int, Pin] = {}
+        for at in sorted({*written, used} - {result, -1}):
+            if at >= len(outs) or not outs[at]:
+                raise NotRead(f"Output {at + 1} of the box {call[0]} in network {self._number} has no name", element)
+            name = self._name()
+            call = (*call[:-1], *([","] if len(call) > 3 else []), outs[at], "=>", f"#{name}", ")")
+            values[at] = (f"#{name}",)
+        self._calls += call[0] not in OPERATORS
+        enabled = call[2:4] == ("EN", ":=")
+        if enabled and result in written and used != result and not self._archive.flags(targets[result]):
+            self._target(targets[result], 0, call)  # without EN the variable keeps its value, so there is no wire
+            written.remove(result)
+        elif enabled and (result in written or used == result):
+            message = f"The result of the box {call[0]} in network {self._number}, which has EN, goes to more than a variable, which is not read"
+            raise NotRead(message, element)
+        elif result in written or used == result:
+            values[result] = self._wire(element, call)
+        else:
             self._line(element, *call)
-            return ()
-        value = self._wire(element, call)
-        for target in written:
-            self._target(target, self._archive.flags(target), value)
-        return value
+        for at in written:
+            self._target(targets[at], self._archive.flags(targets[at]), values[at])
+        return values[used] if used >= 0 else ()
 
 
 def networks_in(body: Element, archive: Archive) -> Iterator[Network]:
@@ -299,29 +265,3 @@ def networks_in(body: Element, archive: Archive) -> Iterator[Network]:
         for item in items:
             reader.item(item, archive.attribute(listed, "cet") if listed is not None else "")
         yield made
-
-
-def write(network: Network, add: Callable[[Lex, str, int], None], operand: Callable[[Operand, int], int]) -> None:
-    """The tokens of a network. `operand` adds those of an operand, at their own places where they follow what was there last: where they end."""
-    at = network.at
-    _made(("NETWORK", *((network.label, ":") if network.label else ())), at, add, operand)
-    for line in network.lines:
-        at = _made(line.pieces, line.at, add, operand)
-    _made(("END_NETWORK",), at, add, operand)
-
-
-def _made(pieces: Pin, at: int, add: Callable[[Lex, str, int], None], operand: Callable[[Operand, int], int]) -> int:
-    for piece in pieces:
-        if isinstance(piece, Operand):
-            at = operand(piece, at)
-            continue
-        for text in ("#", piece[1:]) if piece.startswith("#") and len(piece) > 1 else (piece,):
-            add(_kind(text), text.upper() if _kind(text) is Lex.KEYWORD else text, at)
-            at += len(text)
-    return at
-
-
-def _kind(text: str) -> Lex:
-    if text.upper() in ("NOT", "AND", "OR", "XOR", "MOD", "RETURN", "TRUE"):
-        return Lex.KEYWORD
-    return Lex.NAME if text[0].isalpha() or text[0] == "_" else Lex.OPERATOR

@@ -7,13 +7,14 @@ its own way (METHOD's end, an ACTION's name), then make up the POU that a plain 
 import re
 
 from scanbench.problems import Problem
-from scanbench.syntax import tree
+from scanbench.syntax import tccfc, tcsfc, tree
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
 from scanbench.syntax.parse_pou import ENDS
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.source import Source
-from scanbench.syntax.tcnwl import Archive, Network, NotRead, Operand, networks_in, write
+from scanbench.syntax.tcarchive import Archive, Network, NotRead, Operand, Piece, made, write
+from scanbench.syntax.tcnwl import networks_in
 from scanbench.syntax.xml_outline import Element, NotWellFormed, Outline, Refused, reason
 
 NAME_ATTRIBUTE = re.compile(r"""\sName\s*=\s*["']([^"']*)["']""")
@@ -55,6 +56,8 @@ class _Writer:
         self.source, self.xml = source, xml
         self.problems: list[Problem] = []
         self._made = Tokens([], [], [], [])
+        self._object = Element("", 0)
+        """The POU that is read."""
 
     def tokens(self) -> Tokens:
         """Everything written, closed."""
@@ -70,6 +73,7 @@ class _Writer:
     def object(self, element: Element) -> None:
         """A POU, interface, type or list of variables."""
         first = len(self._made.texts)
+        self._object = element
         self._text(element.child("Declaration"))
         self._body(element)
         for each in element.children:
@@ -100,8 +104,8 @@ class _Writer:
                         self._body(part)
                         self._add(Lex.KEYWORD, f"END_{part.tag.upper()}", part.end)
                 self._add(Lex.KEYWORD, "END_PROPERTY", element.end)
-            case "Transition":
-                self._refuse("A Transition of a chart (SFC) is not supported; write Structured Text.", element)
+            case "Transition" if self._object.child("Implementation", "SFC") is None:
+                self._refuse("This POU has no chart, so its transition is not read; remove it.", element)
 
     def _body(self, element: Element) -> None:
         implementation = element.child("Implementation")
@@ -110,26 +114,55 @@ class _Writer:
         for each in implementation.children:
             if each.tag in ("ST", "IL"):
                 self._text(each)
-            elif each.tag == "NWL":
-                self._networks(each)
             else:
-                message = (
-                    f"A body drawn in {each.tag} is not read from a file of TwinCAT; in TwinCAT export this POU as PLCopen XML "
-                    "and import that, or write the body as Structured Text."
-                )
-                self._refuse(message, each)
+                try:
+                    self._drawn(each, Archive(self.xml, self.source.text))
+                except NotRead as not_read:
+                    message = f"{not_read.message}; in TwinCAT export this POU as PLCopen XML and import that, or write the body as Structured Text."
+                    self._refuse(message, not_read.element)
 
-    def _networks(self, element: Element) -> None:
-        try:
-            found = list(networks_in(element, Archive(self.xml, self.source.text)))
-            for each in found:
-                self._refuse_in_line(each, element)
-        except NotRead as not_read:
-            message = f"{not_read.message}; in TwinCAT export this POU as PLCopen XML and import that, or write the body as Structured Text."
-            self._refuse(message, not_read.element)
-            return
-        for each in found:
-            write(each, self._add, self._operand)
+    def _drawn(self, element: Element, archive: Archive) -> None:
+        """A body that is drawn: nothing of it is written if a part of it is not read."""
+        match element.tag:
+            case "NWL" | "CFC":
+                found = (
+                    list(networks_in(element, archive))
+                    if element.tag == "NWL"
+                    else [tccfc.network_of(element, archive)]
+                )
+                for each in found:
+                    self._refuse_in_line(each, element)
+                for each in found:
+                    write(each, self._add, self._operand)
+            case "SFC":
+                declared = self._object.child("Declaration")
+                flag = tcsfc.FLAGS.search(self.source.text, declared.begin, declared.end) if declared else None
+                if flag is not None:
+                    message = f"This POU has {flag.group()}, with which a chart is driven in TwinCAT, which is not read"
+                    raise NotRead(message, element)
+                for line in tcsfc.chart_lines(element, archive, self._condition):
+                    made(line.pieces, line.at, self._add, self._operand, line.end)
+            case _:
+                raise NotRead(f"A body drawn in {element.tag} is not read from a file of TwinCAT", element)
+
+    def _condition(self, condition: Operand) -> tuple[Piece, ...]:
+        """What a transition tests: an expression, or the body of the transition of this POU that has this name."""
+        found = next((each for each in self._object.children if self._is_transition(each, condition.text)), None)
+        if found is None:
+            return (condition,)
+        body = found.child("Implementation", "ST")
+        if body is None:
+            raise NotRead(f"The transition {condition.text} is drawn, which is not read", found)
+        text = self.source.text[body.begin : body.end]
+        said = re.match(rf"\s*(?:{re.escape(condition.text)}\s*:=)?", text, re.IGNORECASE)
+        begin = body.begin + (said.end() if said else 0)
+        end = body.begin + len(text.rstrip().removesuffix(";"))
+        if ";" in self.source.text[begin:end] or not self.source.text[begin:end].strip():
+            raise NotRead(f"The transition {condition.text} is more than one expression, which is not read", found)
+        return (Operand(begin, end, self.source.text[begin:end]),)
+
+    def _is_transition(self, each: Element, name: str) -> bool:
+        return each.tag == "Transition" and self.name(each)[0].upper() == name.upper()
 
     def _refuse_in_line(self, network: Network, element: Element) -> None:
         """Where a network begins is seen by its lines."""

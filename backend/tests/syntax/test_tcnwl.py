@@ -71,7 +71,34 @@ def demux(number: int, value: str = "") -> str:
     return f'<o t="BoxTreeDemux">\n<v n="VarId">{number}</v>\n{member(value, "Input") if value else ""}</o>\n'
 
 
+def parallel(feed: str, *trees: str, mode: str = "BoxShortCircuit") -> str:
+    """Branches in a ladder that `feed` leads to."""
+    fed = member(feed, "Input") if feed else ""
+    return f'<o t="BoxTreeParallel">\n<v n="Mode" t="ParallelMode">{mode}</v>\n{fed}<l2 n="Trees">\n{"".join(trees)}</l2>\n</o>\n'
+
+
+RESULT = '<v n="MainOutputIndex">1</v>\n'
+MAIN_OUTPUT = '<v n="EN">true</v>\n'
+
+
+def enabled(
+    kind: str,
+    *inputs: str,
+    pins: tuple[str, ...] = (),
+    outs: tuple[str, ...] = ("ENO", ""),
+    instance: str = "",
+    to: str = "",
+    more: str = MAIN_OUTPUT,
+) -> str:
+    """A box whose first input is EN and its first output ENO, the second its result; `to`: a target of the result."""
+    targets = (operand(""), operand(to)) if to else ()
+    return box(kind, *inputs, instance=instance, pins=("EN", *pins), outs=outs, to=targets, more=more)
+
+
 END = '<o t="BoxTreeTerminator">\n<n n="Input" />\n</o>\n'
+
+
+TIMER = box("TON", leaf("a"), leaf("T#0s"), instance="t", pins=("IN", "PT"), outs=("Q", "ET"))
 
 
 def network(*items: str, label: str = "", off: bool = False) -> str:
@@ -173,6 +200,26 @@ def test_actions_and_methods_may_be_drawn() -> None:
     assert ran(source, "a", "") == ["q 0 0", "0 0"]
 
 
+def test_boxes_with_en() -> None:
+    """Without EN nothing is called, and the variable keeps its value; ENO goes on in the ladder."""
+    source = block(
+        network(assign(enabled("ADD", leaf("a"), leaf("y"), leaf("2"), to="y"), operand("q"))),
+        network(assign(enabled("TON", leaf("b"), leaf("c"), leaf("T#0s"), pins=("IN", "PT"), outs=("ENO", "Q", "ET"), instance="t"), operand("r"))),
+        network(assign(leaf("t.Q"), operand("s"))),
+        network(enabled("SEL", END, leaf("a"), leaf("x"), leaf("y"), to="z")),
+    )  # fmt: skip
+    assert ran(source, "", "a", "c", "bc", "", "b") == ["0 0", "q 2 2", "2 0", "rs 2 0", "s 2 0", "r 2 0"]
+
+
+def test_parallel_branches_of_a_ladder() -> None:
+    source = block(
+        network(assign(parallel(leaf("a"), leaf("b"), leaf("c", NEGATED)), operand("q"))),
+        network(assign(parallel("", box("AND", leaf("a"), leaf("b")), leaf("c")), operand("r"))),
+        network(assign(parallel("", leaf("b"), TIMER, mode="Sequential"), operand("s"))),
+    )
+    assert ran(source, "", "a", "ab", "ac", "c") == ["0 0", "qs 0 0", "qrs 0 0", "rs 0 0", "r 0 0"]
+
+
 def test_places_are_those_of_the_operands() -> None:
     source = block(network(assign(box("AND", leaf("a"), leaf("nope")), operand("q"))))
     made = check_sources({"FB.TcPOU": source, "Main.st": MAIN}, MODELS["GENERIC-IEC"])
@@ -182,9 +229,12 @@ def test_places_are_those_of_the_operands() -> None:
 
 
 REFUSED = [
-    (box("ADD", leaf("x"), leaf("1"), to=(operand("y"),), more='<v n="EN">true</v>\n'), "The box ADD in network 1 has EN, which is not read"),
+    (box("ADD", leaf("x"), leaf("1"), to=(operand("y"),), more='<v n="EN">true</v>\n'), "The box ADD in network 1 has EN, but its first input is not EN"),
+    (assign(enabled("ADD", leaf("a"), leaf("x"), leaf("1"), more=f"{MAIN_OUTPUT}{RESULT}"), operand("y")), "The result of the box ADD in network 1, which has EN, goes to more than a variable, which is not read"),
+    (assign(parallel("", leaf("a"), TIMER), operand("q")), "Network 1 calls a block in a branch with short circuit, which is not read"),
     (box("EXECUTE", more='<v n="ProvidesSTSnippet">true</v>\n'), "Network 1 has a box with statements (EXECUTE), which is not read"),
-    ('<o t="BoxTreeParallel">\n</o>\n', "Network 1 has a BoxTreeParallel, which is not read"),
+    ('<o t="BoxTreeParallel">\n</o>\n', "A parallel branch in network 1 has nothing in it"),
+    ('<o t="BoxTreeOther">\n</o>\n', "Network 1 has a BoxTreeOther, which is not read"),
     (assign(box("AND", leaf("a"), leaf("???")), operand("q")), "Input 2 of the box AND in network 1 is not connected"),
     (assign(leaf("a"), operand("???")), "In network 1 a coil or assignment has no variable"),
     (assign(leaf(""), operand("q")), "In network 1 nothing is connected to a coil or assignment"),

@@ -126,7 +126,7 @@ BROKEN = [
     ("x\0y", "S003 1:1 This is no well-formed XML: syntax error. Export the file again."),
     ('<a><POU Name="x"/></a>', "S003 1:4 This POU has no Declaration, so nothing is known of it. Export the file again."),
     ('<a><POU Name="x"><Declaration>PROGRAM x</Declaration><Implementation><FBD/></Implementation></POU></a>', "X001 1:70 A body drawn in FBD is not read from a file of TwinCAT; in TwinCAT export this POU as PLCopen XML and import that, or write the body as Structured Text."),
-    ('<a><POU Name="x"><Declaration>PROGRAM x</Declaration><Transition Name="t"/></POU></a>', "X001 1:54 A Transition of a chart (SFC) is not supported; write Structured Text."),
+    ('<a><POU Name="x"><Declaration>PROGRAM x</Declaration><Transition Name="t"/></POU></a>', "X001 1:54 This POU has no chart, so its transition is not read; remove it."),
 ]  # fmt: skip
 
 
