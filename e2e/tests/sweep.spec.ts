@@ -32,7 +32,7 @@ test('every error from two states: unhandled ones are found, inspected, accepted
     await expect(sweeps.dialog.getByRole('button', { name: /^Run \d/ })).toBeDisabled();
     await sweeps.dialog.getByRole('checkbox', { name: 'Idle' }).check();
     await sweeps.dialog.getByRole('checkbox', { name: 'Running' }).check();
-    await expect(sweeps.dialog.getByRole('status')).toHaveText(/^\d+ errors from 2 states\.$/);
+    await expect(sweeps.dialog.getByRole('status')).toHaveText(/^Errors: \d+, from 2 states\.$/);
     await sweeps.dialog.getByRole('button', { name: 'Cancel' }).click();
   });
 
