@@ -42,6 +42,6 @@ test('everybody shares a sweep: a colleague sees it, one cancels it, the other r
     await ann.sweeps.press('Resume');
     await ann.sweeps.finishes();
     await ben.sweeps.finishes();
-    await expect(await ben.sweeps.cell('Battery error', 'Now')).toContainText('Never read');
+    await expect(await ben.sweeps.cell('Battery error', 'At the start')).toContainText('Never read');
   });
 });

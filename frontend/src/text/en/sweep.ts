@@ -198,7 +198,7 @@ export const sweep = {
   "sweep.says.stopped": "A fatal error stopped the PLC, so the program could not react.",
   "sweep.scan": "1 scan",
   "sweep.scans": "{count} scans",
-  "sweep.state.now": "Now",
+  "sweep.state.now": "At the start",
   "sweep.status.cancelled": "Cancelled",
   "sweep.status.done": "Done",
   "sweep.status.failed": "Failed",

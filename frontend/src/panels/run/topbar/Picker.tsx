@@ -43,8 +43,9 @@ export function Picker() {
         onOpen={() => void refreshApp()}
       >
         <span className="two">
-          <span className="cut">
-            {project ? `${project.name}${instance ? ` / ${instance.name}` : ""}` : t("picker.none")}
+          <span className="names">
+            <span className="cut">{project?.name ?? t("picker.none")}</span>
+            {instance && <span className="cut">{` / ${instance.name}`}</span>}
           </span>
           <span className="cut">{project ? t("picker.about", { model, version: runs ?? project.version }) : ""}</span>
         </span>
