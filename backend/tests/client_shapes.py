@@ -26,7 +26,10 @@ FILES = {
         "VerificationInfo UploadedTrace TraceMapping VerifyRows SetCell VerificationRecord",
     ),
     "debugging": ("breakpoints", "BreakpointInfo"),
-    "communication": ("the communication unit", "Communication PlantSettings CommunicationServerSettings"),
+    "communication": (
+        "the communication unit",
+        "Communication PlantSettings CommunicationServerSettings MqttSettingsGiven",
+    ),
     "traces": ("traces", "TraceInfo TraceTrigger TraceRecordInfo Retrospective"),
 }
 """What each file is about, and the components that are asked for; those that they hold come into the first file."""

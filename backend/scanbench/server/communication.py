@@ -15,7 +15,7 @@ from scanbench.comm.modbus.map_file import MAP_FILE
 from scanbench.comm.modbus.mapping import Mapped
 from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.modbus.wires import PlantWanted
-from scanbench.comm.mqtt.settings import MqttWanted
+from scanbench.comm.mqtt.settings import MqttGiven
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
 from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
@@ -37,6 +37,7 @@ from scanbench.server.communication_network import Member, PlcNetwork
 from scanbench.server.communication_plant import Plant
 from scanbench.server.communication_plc import SessionPlc
 from scanbench.server.communication_shapes import CommunicationSeen, ServerSeen, ServerWanted
+from scanbench.server.mqtt_secrets import MqttSecrets
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
@@ -121,7 +122,7 @@ class Communication:
     def __init__(self, store: Store, data: Path, map_file: MapFile) -> None:
         """`data` is the directory of the server; `map_file` gives the text of a project's map of Modbus."""
         self._store, self._map_file = store, map_file
-        self._place = Place(data / "cache", data / "opcua", "")
+        self._place, self._secrets = Place(data / "cache", data / "opcua", ""), data / "mqtt"
         self._units: dict[int, _Unit] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._network = PlcNetwork(self._members)
@@ -134,7 +135,8 @@ class Communication:
         """A PLC is there: opens the servers that were on."""
         kept, readers = session.row.communication or {}, ErrorReaders(session.model)
         plant = Plant(session, readers, kept.get("plant"), lambda: _tell_clients(unit))
-        mqtt = Mqtt(session, readers, kept.get("mqtt"), lambda: _tell_clients(unit))
+        secrets = MqttSecrets(self._secrets, session.id)
+        mqtt = Mqtt(session, readers, secrets, kept.get("mqtt"), lambda: _tell_clients(unit))
         unit = self._units[session.id] = _Unit(session, readers, plant, mqtt, ModbusMap(session, self._map_file))
         await unit.map.read()
         self._network.begin(session)
@@ -146,7 +148,14 @@ class Communication:
             else:
                 await self._turn(unit, kind)
         plant.begin()
-        mqtt.begin()
+        await mqtt.begin()
+
+    async def forget(self, id: int) -> None:
+        """A PLC is deleted: closes its servers, and forgets what it proved itself with."""
+        unit = self._units.get(id)
+        await self.end(id)
+        if unit is not None:
+            await unit.mqtt.forget()
 
     async def end(self, id: int) -> None:
         """A PLC is gone: closes its servers."""
@@ -207,7 +216,7 @@ class Communication:
         session.log.add(author, on if wanted.on else "values are exchanged with no plant", "system")
         return self.seen(session)
 
-    async def set_mqtt(self, session: Session, wanted: MqttWanted, author: str) -> CommunicationSeen:
+    async def set_mqtt(self, session: Session, wanted: MqttGiven, author: str) -> CommunicationSeen:
         """Switches publishing on or off, or gives it other settings; they are kept. `Refused`."""
         unit = self._units[session.id]
         wanted.check()

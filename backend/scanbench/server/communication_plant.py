@@ -96,7 +96,8 @@ async def _run(client: PlantClient, name: str) -> None:
         await client.run()
     except Exception:
         log.exception("%s: values could not be exchanged", name)
-        await client.lost("values are not exchanged any more: see the log of the server")
+        await client.lost("")
+        client.trouble = "values are not exchanged any more: see the log of the server"
 
 
 def _read(kept: object) -> PlantWanted:

@@ -83,6 +83,10 @@ class MqttSeen(Public):
     PUBLIC: ClassVar = "CommunicationMqtt"
 
     settings: MqttWanted
+    password: bool
+    """One is kept."""
+    identity: bool
+    """A certificate of the client is kept."""
     connected: bool
     trouble: str
     """Why nothing is published although it is on, or which of the variables are not."""

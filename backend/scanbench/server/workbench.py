@@ -288,7 +288,7 @@ class Workbench:
         if session is None:
             raise NotFound(f"there is no instance {id}")
         session.tell(InstanceDeleted(author))
-        await self.communication.end(id)
+        await self.communication.forget(id)
         await self.verifications.forget_instance(id)
         await self.history.forget_instance(id)
         await self.campaigns.forget_instance(id)

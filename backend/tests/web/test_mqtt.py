@@ -36,13 +36,13 @@ VALUES = [-5, False, 1.5, 2**64 - 1, -7, 1500.0, "2026-11-28T00:00:00+00:00", "p
 
 
 @contextmanager
-def broker(folder: Path, port: int = 0) -> Iterator[int]:
+def broker(folder: Path, port: int = 0, settings: str = "allow_anonymous true\n") -> Iterator[int]:
     """mosquitto, at a port of its own."""
     if not port:
         with socket.create_server(("127.0.0.1", 0)) as free:
             port = free.getsockname()[1]
     config = folder / "mosquitto.conf"
-    config.write_text(f"listener {port} 127.0.0.1\nallow_anonymous true\n")
+    config.write_text(f"listener {port} 127.0.0.1\n{settings}")
     process = subprocess.Popen(["/usr/sbin/mosquitto", "-c", config], stderr=subprocess.DEVNULL)
 
     def answers() -> bool:

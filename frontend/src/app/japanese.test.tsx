@@ -104,7 +104,9 @@ function busy(server: FakeServer): void {
   const plant = { settings, fault, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
   const published = { on: false, host: "127.0.0.1", port: 1883, sparkplug: false, prefix: "scanbench", every_ms: 1000 };
   const mqtt = {
-    settings: { ...published, variables: [] },
+    settings: { ...published, variables: [], user: "", tls: false, ca: "" },
+    password: false,
+    identity: false,
     connected: false,
     trouble: "",
     published: 0,

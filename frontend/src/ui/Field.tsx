@@ -11,6 +11,8 @@ interface Props {
   title?: string;
   /** A number is typed. */
   number?: boolean;
+  /** Nobody may read what is typed. */
+  secret?: boolean;
   /** Additional classes of the input. */
   look?: string;
 }
@@ -23,6 +25,7 @@ export function Field({
   refused = null,
   mono = false,
   number = false,
+  secret = false,
   look = "",
   ...rest
 }: Props) {
@@ -31,7 +34,7 @@ export function Field({
       <span>{label}</span>
       <input
         className={`inp${mono ? " mono" : ""}${refused ? " bad" : ""}${look && ` ${look}`}`}
-        type={number ? "number" : "text"}
+        type={secret ? "password" : number ? "number" : "text"}
         value={value}
         {...rest}
         spellCheck={false}

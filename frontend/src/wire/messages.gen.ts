@@ -4177,6 +4177,16 @@ export interface components {
              */
             frames: components["schemas"]["CommunicationFrame"][];
             /**
+             * Identity
+             * @description A certificate of the client is kept.
+             */
+            identity: boolean;
+            /**
+             * Password
+             * @description One is kept.
+             */
+            password: boolean;
+            /**
              * Per Second
              * @description Messages, lately.
              */
@@ -6573,22 +6583,85 @@ export interface components {
          */
         MqttSettings: {
             /**
+             * Ca
+             * @description The certificate of who signed that of the broker, in PEM; empty: one of those that the machine trusts.
+             */
+            ca: string;
+            /**
              * Every Ms
              * @description How often variables are read; those that changed are published.
-             * @default 1000
              */
             every_ms: number;
             /**
              * Host
              * @description Where the broker is: an address, or the name of a machine.
+             */
+            host: string;
+            /** On */
+            on: boolean;
+            /** Port */
+            port: number;
+            /**
+             * Prefix
+             * @description Topics begin with it; of Sparkplug B it is the group.
+             */
+            prefix: string;
+            /**
+             * Sparkplug
+             * @description As an edge node of Sparkplug B; else each variable is a topic with JSON.
+             */
+            sparkplug: boolean;
+            /**
+             * Tls
+             * @description What is said is encrypted, and the broker shows a certificate that is for `host`.
+             */
+            tls: boolean;
+            /**
+             * User
+             * @description That the broker knows; empty: it asks for none.
+             */
+            user: string;
+            /**
+             * Variables
+             * @description Paths and addresses: `Main.level`, `D100`.
+             */
+            variables: string[];
+        };
+        /**
+         * MqttSettingsGiven
+         * @description The same with what proves who we are, which is kept beside the token of the server and never told again.
+         */
+        MqttSettingsGiven: {
+            /**
+             * Ca
+             * @default
+             */
+            ca: string;
+            /**
+             * Every Ms
+             * @default 1000
+             */
+            every_ms: number;
+            /**
+             * Host
              * @default 127.0.0.1
              */
             host: string;
+            /**
+             * Identity
+             * @description A certificate of the client and its key, both in PEM, the key without a password; None and empty as with the password.
+             */
+            identity?: string | null;
             /**
              * On
              * @default false
              */
             on: boolean;
+            /**
+             * Password
+             * @description Of the user; None: the one that is kept, which is forgotten when the broker becomes another one; empty: none.
+             */
+            password?: string | null;
             /**
              * Port
              * @default 1883
@@ -6596,19 +6669,26 @@ export interface components {
             port: number;
             /**
              * Prefix
-             * @description Topics begin with it; of Sparkplug B it is the group.
              * @default scanbench
              */
             prefix: string;
             /**
              * Sparkplug
-             * @description As an edge node of Sparkplug B; else each variable is a topic with JSON.
              * @default false
              */
             sparkplug: boolean;
             /**
+             * Tls
+             * @default false
+             */
+            tls: boolean;
+            /**
+             * User
+             * @default
+             */
+            user: string;
+            /**
              * Variables
-             * @description Paths and addresses: `Main.level`, `D100`.
              * @default []
              */
             variables: string[];
@@ -11661,7 +11741,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["MqttSettings"];
+                "application/json": components["schemas"]["MqttSettingsGiven"];
             };
         };
         responses: {

@@ -30,7 +30,7 @@ import type {
   ModbusRange,
   ModelInfo,
   ModelSummary,
-  MqttSettings,
+  MqttSettingsGiven,
   NewSweep,
   PlantSettings,
   PlcSymbol,
@@ -347,7 +347,7 @@ export const rest = {
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}`, wanted),
   setPlant: (instance: number, wanted: PlantSettings) =>
     json<Communication>("PUT", `/instances/${instance}/communication/plant`, wanted),
-  setMqtt: (instance: number, wanted: MqttSettings) =>
+  setMqtt: (instance: number, wanted: MqttSettingsGiven) =>
     json<Communication>("PUT", `/instances/${instance}/communication/mqtt`, wanted),
   breakLine: (instance: number, kind: LineKind, fault: CommunicationFault) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}/fault`, fault),

@@ -43,6 +43,7 @@ export type CommunicationServer = Shapes["CommunicationServer"];
 export type CommunicationServerSettings = Shapes["CommunicationServerSettings"];
 export type ModbusRange = Shapes["ModbusRange"];
 export type MqttSettings = Shapes["MqttSettings"];
+export type MqttSettingsGiven = Shapes["MqttSettingsGiven"];
 export type PlantRange = Shapes["PlantRange"];
 export type PlantSettings = Shapes["PlantSettings"];
 export type ServerKind = CommunicationServer["kind"];

@@ -30,7 +30,7 @@ class Communication(Asks):
         return self._send(shapes.Communication, "PUT", "communication/plant", {"on": True, **wanted})
 
     @asked
-    def publish_by_mqtt(self, **wanted: Unpack[shapes.MqttSettings]) -> Steps[shapes.Communication]:
-        """Publishes variables to a broker: `host`, `port`, `sparkplug`, `prefix`, `every_ms` and `variables`; ends that with
-        `on=False`."""
+    def publish_by_mqtt(self, **wanted: Unpack[shapes.MqttSettingsGiven]) -> Steps[shapes.Communication]:
+        """Publishes variables to a broker: `host`, `port`, `sparkplug`, `prefix`, `every_ms` and `variables`; `user`, `password`, `tls`,
+        `ca` and `identity` where it wants them; ends that with `on=False`."""
         return self._send(shapes.Communication, "PUT", "communication/mqtt", {"on": True, **wanted})

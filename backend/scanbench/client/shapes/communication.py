@@ -136,24 +136,34 @@ class CommunicationPlant(TypedDict):
 class MqttSettings(TypedDict):
     """Variables that are published, and the broker that gets them."""
 
-    on: NotRequired[bool]
-    host: NotRequired[str]
+    on: bool
+    host: str
     """Where the broker is: an address, or the name of a machine."""
-    port: NotRequired[int]
-    sparkplug: NotRequired[bool]
+    port: int
+    sparkplug: bool
     """As an edge node of Sparkplug B; else each variable is a topic with JSON."""
-    prefix: NotRequired[str]
+    prefix: str
     """Topics begin with it; of Sparkplug B it is the group."""
-    every_ms: NotRequired[int]
+    every_ms: int
     """How often variables are read; those that changed are published."""
-    variables: NotRequired[list[str]]
+    variables: list[str]
     """Paths and addresses: `Main.level`, `D100`."""
+    user: str
+    """That the broker knows; empty: it asks for none."""
+    tls: bool
+    """What is said is encrypted, and the broker shows a certificate that is for `host`."""
+    ca: str
+    """The certificate of who signed that of the broker, in PEM; empty: one of those that the machine trusts."""
 
 
 class CommunicationMqtt(TypedDict):
     """What is published by MQTT."""
 
     settings: MqttSettings
+    password: bool
+    """One is kept."""
+    identity: bool
+    """A certificate of the client is kept."""
     connected: bool
     trouble: str
     """Why nothing is published although it is on, or which of the variables are not."""
@@ -177,3 +187,22 @@ class Communication(TypedDict):
     """The project has a map of Modbus of its own: `modbus.csv`."""
     map_trouble: str
     """Why that cannot be used; no register means anything then."""
+
+
+class MqttSettingsGiven(TypedDict):
+    """The same with what proves who we are, which is kept beside the token of the server and never told again."""
+
+    on: NotRequired[bool]
+    host: NotRequired[str]
+    port: NotRequired[int]
+    sparkplug: NotRequired[bool]
+    prefix: NotRequired[str]
+    every_ms: NotRequired[int]
+    variables: NotRequired[list[str]]
+    user: NotRequired[str]
+    tls: NotRequired[bool]
+    ca: NotRequired[str]
+    password: NotRequired[str | None]
+    """Of the user; None: the one that is kept, which is forgotten when the broker becomes another one; empty: none."""
+    identity: NotRequired[str | None]
+    """A certificate of the client and its key, both in PEM, the key without a password; None and empty as with the password."""

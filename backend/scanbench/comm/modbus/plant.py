@@ -130,8 +130,9 @@ class PlantClient:
 
     async def lost(self, why: str) -> None:
         """There is no exchange now: what the PLC gets to know of it."""
+        told = f"the plant at {self._wanted.host}:{self._wanted.port} does not answer: {why}"
         if self.answers:
-            self._tell(f"the plant at {self._wanted.host}:{self._wanted.port} does not answer: {why}")
+            self._tell(told)
         self.answers = False
         off = (
             []
@@ -140,7 +141,7 @@ class PlantClient:
         )
         if writes := [*self._cleared, *off]:
             await self._enter(writes)
-        self.trouble = why
+        self.trouble = told
 
     async def _read(self, line: Line, wires: Wires) -> bytes:
         line.transaction = (line.transaction + 1) % _TRANSACTIONS

@@ -5,6 +5,7 @@ A connection is there while the PLC is: where the PLC goes, the broker is told i
 
 import asyncio
 import json
+import logging
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -13,13 +14,17 @@ import aiomqtt
 
 from scanbench.comm.desk import Desk
 from scanbench.comm.door import Away, Plc
-from scanbench.comm.mqtt.settings import MqttWanted
+from scanbench.comm.mqtt.broken import why
+from scanbench.comm.mqtt.settings import MqttWanted, Secrets, tls_of
 from scanbench.comm.mqtt.sparkplug import BIRTHS, REBIRTH, SEQUENCES, Broken, DataType, Metric, payload, wants_rebirth
 from scanbench.comm.mqtt.values import Chosen, choose
 from scanbench.runtime.clock import wall_time
+from scanbench.wire.refused import Refused
 from scanbench.wire.symbols import WatchItem
 from scanbench.wire.variables import VariablesAre
 
+log = logging.getLogger("scanbench.mqtt")
+log.setLevel(logging.ERROR)  # a broker that is lost is told of where it is seen
 AGAIN_S, PATIENCE_S = 1.0, 10.0
 """How long after a loss the broker, or the PLC, is tried again; how long an answer is waited for."""
 _AT_ONCE = 50
@@ -38,8 +43,17 @@ class _Values:
 class Publisher:
     """Of one PLC, for as long as `run` runs. `tell` is given a sentence when the broker is found or lost."""
 
-    def __init__(self, plc: Plc, wanted: MqttWanted, desk: Desk, name: str, tell: Callable[[str], None]) -> None:
-        self._plc, self._wanted, self._desk, self._name, self._tell = plc, wanted, desk, name, tell
+    def __init__(
+        self, plc: Plc, wanted: MqttWanted, secrets: Secrets, desk: Desk, name: str, tell: Callable[[str], None]
+    ) -> None:
+        self._plc, self._wanted, self._secrets, self._desk, self._name, self._tell = (
+            plc,
+            wanted,
+            secrets,
+            desk,
+            name,
+            tell,
+        )
         self._node = topic_name(plc.name)
         self._chosen: Chosen | None = None
         self._births = -1
@@ -56,10 +70,10 @@ class Publisher:
             try:
                 values = await self._read()
                 await self._talk(values)
-            except Away as away:
+            except (Away, Refused) as away:
                 self._lost(str(away))
             except (aiomqtt.MqttError, OSError) as error:
-                self._lost(f"the broker at {self._wanted.host}:{self._wanted.port} cannot be reached: {error}")
+                self._lost(why(error, self._wanted))
             await asyncio.sleep(AGAIN_S)
 
     def _lost(self, why: str) -> None:
@@ -94,11 +108,7 @@ class Publisher:
         """Until the PLC is away, or the broker."""
         wanted = self._wanted
         self._births = (self._births + 1) % SEQUENCES
-        will = aiomqtt.Will(*self._end(), qos=1, retain=not wanted.sparkplug)
-        async with aiomqtt.Client(
-            wanted.host, wanted.port, will=will, timeout=PATIENCE_S, max_queued_incoming_messages=_QUEUE,
-            identifier="-".join(("scanbench", self._node))[:_LONGEST_ID],
-        ) as client:  # fmt: skip
+        async with self._client() as client:
             if not self.connected:
                 self._tell(f"the broker at {wanted.host}:{wanted.port} gets what is published")
             self.connected = True
@@ -109,6 +119,17 @@ class Publisher:
                 with suppress(aiomqtt.MqttError, TimeoutError):
                     await client.publish(topic, told, qos=1, retain=not wanted.sparkplug, timeout=AGAIN_S)
                 raise
+
+    def _client(self) -> aiomqtt.Client:
+        """`Refused` where what it is known by is none."""
+        wanted, secrets = self._wanted, self._secrets
+        return aiomqtt.Client(
+            wanted.host, wanted.port, timeout=PATIENCE_S, max_queued_incoming_messages=_QUEUE, logger=log,
+            identifier="-".join(("scanbench", self._node))[:_LONGEST_ID],
+            will=aiomqtt.Will(*self._end(), qos=1, retain=not wanted.sparkplug),
+            username=wanted.user or None, password=secrets.password or None,
+            tls_context=tls_of(wanted.ca, secrets.identity) if wanted.tls else None,
+        )  # fmt: skip
 
     async def _publish_on(self, client: aiomqtt.Client, values: _Values) -> None:
         wanted, loop = self._wanted, asyncio.get_running_loop()

@@ -5,7 +5,7 @@ from fastapi.responses import Response
 
 from scanbench.comm.modbus.mapping import Mapped, as_csv
 from scanbench.comm.modbus.wires import PlantWanted
-from scanbench.comm.mqtt.settings import MqttWanted
+from scanbench.comm.mqtt.settings import MqttGiven
 from scanbench.faults.line_faults import LineFault, LineKind, ServerKind
 from scanbench.server.communication_shapes import CommunicationSeen, ServerWanted
 from scanbench.web.auth import user_of
@@ -29,7 +29,7 @@ async def on_set_plant(bench: Bench, request: Request, instance: Id, wanted: Pla
 
 
 @router.put("/mqtt")
-async def on_set_mqtt(bench: Bench, request: Request, instance: Id, wanted: MqttWanted) -> CommunicationSeen:
+async def on_set_mqtt(bench: Bench, request: Request, instance: Id, wanted: MqttGiven) -> CommunicationSeen:
     """Switches the publishing of variables by MQTT or Sparkplug B on or off, or says which of them go where. It is kept: it is on
     again when Scanbench starts again."""
     return await bench.communication.set_mqtt(bench.session(instance), wanted, user_of(request).name)

@@ -9,7 +9,7 @@ import type {
   CommunicationServerSettings,
   LineKind,
   ModbusRange,
-  MqttSettings,
+  MqttSettingsGiven,
   PlantSettings,
   ServerKind,
 } from "../../wire/types";
@@ -49,7 +49,7 @@ export async function loadCommunication(): Promise<void> {
   }
 }
 
-let changes: Promise<void> = Promise.resolve();
+let changes: Promise<unknown> = Promise.resolve();
 
 /** Changes settings; each change begins with what the one before it made of them. */
 export const changeServer = (kind: ServerKind, wanted: Partial<CommunicationServerSettings>) =>
@@ -66,7 +66,7 @@ export const changePlant = (wanted: Partial<PlantSettings>) =>
     return rest.setPlant(instance, { ...settings, ...wanted });
   });
 
-export const changeMqtt = (wanted: Partial<MqttSettings>) =>
+export const changeMqtt = (wanted: Partial<MqttSettingsGiven>) =>
   inTurn("mqtt", (instance) => {
     const settings = useCommunication.getState().seen?.mqtt.settings;
     if (!settings) throw new Error("mqtt"); // nobody sees what could be changed
@@ -76,19 +76,23 @@ export const changeMqtt = (wanted: Partial<MqttSettings>) =>
 export const breakLine = (kind: LineKind, fault: CommunicationFault) =>
   inTurn(kind, (instance) => rest.breakLine(instance, kind, fault));
 
-/** One change after the other. A refusal stays until the next change. */
-function inTurn(kind: LineKind | "mqtt", change: (instance: number) => Promise<Communication>): void {
+/** One change after the other: whether it was done. A refusal stays until the next change. */
+function inTurn(kind: LineKind | "mqtt", change: (instance: number) => Promise<Communication>): Promise<boolean> {
   const { instance } = useBench.getState();
-  if (instance === null) return;
-  changes = changes.then(async () => {
+  if (instance === null) return Promise.resolve(false);
+  const done = changes.then(async () => {
     try {
       const seen = await change(instance.id);
       turn += 1; // what was asked before the change does not know of it
       set({ seen, refused: null });
+      return true;
     } catch (error) {
       set({ refused: { kind, message: messageOf(error) } });
+      return false;
     }
   });
+  changes = done;
+  return done;
 }
 
 export async function loadMap(): Promise<void> {

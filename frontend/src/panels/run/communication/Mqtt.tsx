@@ -7,6 +7,8 @@ import { Segments } from "../../../ui/Segments";
 import { StateWord } from "../../../ui/StateWord";
 import { Switch } from "../../../ui/Switch";
 import type { CommunicationMqtt, MqttSettings } from "../../../wire/types";
+import { Count, HostAndPort } from "./Fields";
+import { Proofs } from "./Proofs";
 import { Frames } from "./Seen";
 
 /** Variables that are published to a broker: as topics with JSON, or as an edge node of Sparkplug B. */
@@ -36,43 +38,30 @@ export function Mqtt({ mqtt }: { mqtt: CommunicationMqtt }) {
           <span>{said}</span>
         </p>
       )}
-      <Settings settings={settings} />
-      {settings.on && <Frames frames={mqtt.frames} of={title} />}
+      <Settings mqtt={mqtt} />
+      {settings.on && <Frames frames={mqtt.frames} of={title} told />}
     </section>
   );
 }
 
 /** What is typed stays as typed until it is applied; what somebody else applied meanwhile takes its place. */
-function Settings({ settings }: { settings: MqttSettings }) {
-  const { on: _on, ...known } = settings;
+function Settings({ mqtt }: { mqtt: CommunicationMqtt }) {
+  const { on: _on, ...known } = mqtt.settings;
   const [draft, setDraft] = useState(() => textOf(known));
   const applied = JSON.stringify(textOf(known));
   useEffect(() => setDraft(JSON.parse(applied) as Draft), [applied]);
   const change = (part: Partial<Draft>) => setDraft((before) => ({ ...before, ...part }));
   return (
     <form
-      onSubmit={(event) => {
+      onSubmit={async (event) => {
         event.preventDefault();
         const variables = draft.variables.split(/\s*[\n;]\s*/).filter((path) => path.trim() !== "");
-        changeMqtt({ ...draft, variables: variables.map((path) => path.trim()) });
+        const done = await changeMqtt({ ...draft, variables: variables.map((path) => path.trim()) });
+        if (done) setDraft(({ password: _password, identity: _identity, ...rest }) => rest);
       }}
     >
       <div className="comsettings">
-        <Field
-          label={t("communication.mqtt.host")}
-          look="sm"
-          mono
-          value={draft.host}
-          onChange={(host) => change({ host })}
-        />
-        <Field
-          label={t("communication.port")}
-          look="sm comcount"
-          mono
-          number
-          value={`${draft.port}`}
-          onChange={(port) => change({ port: Number(port) })}
-        />
+        <HostAndPort label={t("communication.mqtt.host")} host={draft.host} port={draft.port} onChange={change} />
         <Field
           label={t(draft.sparkplug ? "communication.mqtt.group" : "communication.mqtt.prefix")}
           look="sm"
@@ -80,13 +69,10 @@ function Settings({ settings }: { settings: MqttSettings }) {
           value={draft.prefix}
           onChange={(prefix) => change({ prefix })}
         />
-        <Field
+        <Count
           label={t("communication.plant.every")}
-          look="sm comcount"
-          mono
-          number
-          value={`${draft.every_ms}`}
-          onChange={(every) => change({ every_ms: Number(every) })}
+          value={draft.every_ms}
+          onChange={(every_ms) => change({ every_ms })}
         />
         <span className="field">
           <span>{t("communication.mqtt.form")}</span>
@@ -101,6 +87,7 @@ function Settings({ settings }: { settings: MqttSettings }) {
           />
         </span>
       </div>
+      <Proofs mqtt={mqtt} draft={draft} onChange={change} />
       <label className="field comvariables">
         <span>{t("communication.mqtt.variables")}</span>
         <textarea
@@ -119,7 +106,7 @@ function Settings({ settings }: { settings: MqttSettings }) {
   );
 }
 
-type Draft = Omit<MqttSettings, "on" | "variables"> & { variables: string };
+type Draft = Omit<MqttSettings, "on" | "variables"> & { variables: string; password?: string; identity?: string };
 
 const textOf = (settings: Omit<MqttSettings, "on">): Draft => ({
   ...settings,

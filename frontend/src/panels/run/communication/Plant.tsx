@@ -7,6 +7,7 @@ import { Segments } from "../../../ui/Segments";
 import { StateWord } from "../../../ui/StateWord";
 import { Switch } from "../../../ui/Switch";
 import type { CommunicationPlant, PlantSettings } from "../../../wire/types";
+import { Count, HostAndPort } from "./Fields";
 import { Line } from "./Line";
 import { PlantRanges } from "./PlantRanges";
 import { Frames } from "./Seen";
@@ -64,16 +65,13 @@ function Settings({ settings }: { settings: PlantSettings }) {
       }}
     >
       <div className="comsettings">
-        <Field
-          label={t("communication.plant.host")}
-          look="sm"
-          mono
-          value={draft.host}
-          onChange={(host) => change({ host })}
+        <HostAndPort label={t("communication.plant.host")} host={draft.host} port={draft.port} onChange={change} />
+        <Count label={t("communication.plant.unit")} value={draft.unit} onChange={(unit) => change({ unit })} />
+        <Count
+          label={t("communication.plant.every")}
+          value={draft.every_ms}
+          onChange={(every_ms) => change({ every_ms })}
         />
-        <Count name="communication.port" value={draft.port} onChange={(port) => change({ port })} />
-        <Count name="communication.plant.unit" value={draft.unit} onChange={(unit) => change({ unit })} />
-        <Count name="communication.plant.every" value={draft.every_ms} onChange={(every_ms) => change({ every_ms })} />
         <Field
           label={t("communication.plant.answers")}
           title={t("communication.plant.answers.about")}
@@ -100,24 +98,5 @@ function Settings({ settings }: { settings: PlantSettings }) {
         {t("communication.apply")}
       </button>
     </form>
-  );
-}
-
-interface CountProps {
-  name: "communication.port" | "communication.plant.unit" | "communication.plant.every";
-  value: number;
-  onChange: (value: number) => void;
-}
-
-function Count({ name, value, onChange }: CountProps) {
-  return (
-    <Field
-      label={t(name)}
-      look="sm comcount"
-      mono
-      number
-      value={`${value}`}
-      onChange={(text) => onChange(Number(text))}
-    />
   );
 }

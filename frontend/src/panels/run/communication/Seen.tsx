@@ -37,13 +37,20 @@ export function Clients({ clients, of }: { clients: CommunicationServer["clients
   );
 }
 
-export function Frames({ frames, of }: { frames: readonly CommunicationFrame[]; of: string }) {
-  const title = t("communication.frames");
+interface FramesProps {
+  frames: readonly CommunicationFrame[];
+  of: string;
+  /** The PLC tells; nobody asks it. */
+  told?: boolean;
+}
+
+export function Frames({ frames, of, told = false }: FramesProps) {
+  const title = t(told ? "communication.mqtt.frames" : "communication.frames");
   return (
     <>
       <h3>{title}</h3>
       {frames.length === 0 ? (
-        <p className="faint">{t("communication.frames.none")}</p>
+        <p className="faint">{t(told ? "communication.mqtt.frames.none" : "communication.frames.none")}</p>
       ) : (
         // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
         <div className="comframes" tabIndex={0} role="group" aria-label={`${of}: ${title}`}>
@@ -51,8 +58,8 @@ export function Frames({ frames, of }: { frames: readonly CommunicationFrame[]; 
             <thead>
               <tr>
                 <th scope="col">{t("communication.time")}</th>
-                <th scope="col">{t("communication.client")}</th>
-                <th scope="col">{t("communication.request")}</th>
+                <th scope="col">{t(told ? "communication.mqtt.broker" : "communication.client")}</th>
+                <th scope="col">{t(told ? "communication.mqtt.topic" : "communication.request")}</th>
                 <th scope="col">{t("communication.outcome")}</th>
               </tr>
             </thead>

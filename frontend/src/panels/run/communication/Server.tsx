@@ -2,11 +2,11 @@ import { useEffect, useState } from "react";
 import { changeServer, useCommunication } from "../../../store/plc/communication";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
-import { Field } from "../../../ui/Field";
 import { Icon } from "../../../ui/Icon";
 import { Segments } from "../../../ui/Segments";
 import { Switch } from "../../../ui/Switch";
 import type { CommunicationServer, CommunicationServerSettings } from "../../../wire/types";
+import { Count, HostAndPort } from "./Fields";
 import { Line } from "./Line";
 import { Clients, Frames } from "./Seen";
 
@@ -88,33 +88,16 @@ function Settings({ kind, draft, edited, change }: Form & { kind: CommunicationS
         changeServer(kind, draft);
       }}
     >
-      <Field
+      <HostAndPort
         label={t("communication.host")}
         title={t("communication.host.about")}
-        look="sm"
-        mono
-        value={draft.host}
-        onChange={(host) => change({ host })}
+        about={t("communication.port.about")}
+        host={draft.host}
+        port={draft.port}
+        onChange={change}
       />
-      <Field
-        label={t("communication.port")}
-        title={t("communication.port.about")}
-        look="sm comcount"
-        mono
-        number
-        value={`${draft.port}`}
-        onChange={(port) => change({ port: Number(port) })}
-      />
-      {draft.port === 0 && <span className="faint">{t("communication.port.about")}</span>}
       {kind === "fins" && (
-        <Field
-          label={t("communication.node")}
-          look="sm comcount"
-          mono
-          number
-          value={`${draft.node}`}
-          onChange={(node) => change({ node: Number(node) })}
-        />
+        <Count label={t("communication.node")} value={draft.node} onChange={(node) => change({ node })} />
       )}
       <span className="field">
         <span>{t("communication.access")}</span>

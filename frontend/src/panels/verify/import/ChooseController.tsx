@@ -38,16 +38,7 @@ export function ChooseController() {
           refused={bad ? t("import.controller.interval.bad") : null}
         />
         <Field label={t("import.controller.user")} value={user} onChange={setUser} />
-        <label className="field">
-          <span>{t("import.controller.secret")}</span>
-          <input
-            className="inp"
-            type="password"
-            value={password}
-            autoComplete="off"
-            onChange={(event) => setPassword(event.target.value)}
-          />
-        </label>
+        <Field label={t("import.controller.secret")} value={password} onChange={setPassword} secret />
       </div>
       <label className="field">
         <span>{t("import.controller.nodes")}</span>
