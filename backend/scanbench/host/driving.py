@@ -274,8 +274,7 @@ class Driving:
     # ---- time travel ----------------------------------------------------------------------------------------------
 
     def travel(self, travel: protocol.Travel) -> None:
-        """Shows a scan of the past, or the live PLC."""
-        self.stood = False
+        """Shows a scan of the past, or the live PLC; one that is not yet where it was halted before gets there all the same."""
         refusal = None
         if travel.scan is None:
             program = self._resource.program
@@ -285,6 +284,10 @@ class Driving:
             self._travelled(program)
         else:
             refusal = self._show(travel.scan, travel.count, travel.author)
+        if self.stood and refusal is None:
+            by = "" if travel.scan is None else travel.author
+            self._keep(replace(self._kept, shown=travel.scan, shown_count=travel.count, shown_by=by))
+            self.stood = self._kept.count > 0 or self._kept.shown_count > 0
         self.note()
         self._answers.answer(
             travel.ref, refusal, f"scan {self._resource.header.scan}" if travel.scan is not None else "live"
