@@ -60,6 +60,7 @@ from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 from scanbench.syntax.language_file import dialect_of, is_language_file
+from scanbench.syntax.parse_generic import VARIADIC
 from scanbench.syntax.requirements import is_requirements
 
 RECURSION_LIMIT = 20_000
@@ -317,7 +318,7 @@ class Checker:
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
         name = full_name(declaration)
         inline = in_library(declaration.span)
-        if is_generic(declaration) and (inline or "ANY" not in self.declarations.type_trees):
+        if is_generic(declaration, inline or "ANY" not in self.declarations.type_trees):
             self.pous.generic[key] = declaration
             return
         if declaration.kind == "function":
@@ -327,6 +328,7 @@ class Checker:
                 self.pous.broken.add(key)
                 return
             pou = self.pous.functions[key] = called_pou(name, declaration, made)
+            self.pous.variadic |= {key} if VARIADIC in declaration.modifiers else set()
             pou.inline = inline
             return
         with suppress(Rejected):
@@ -438,12 +440,11 @@ class Checker:
                 done.add(pou)
                 if not pou.body:
                     self.check_body(self.names.library[pou.name.upper()])
-                    found = self.report.parts[pou].problems
-                    assert not found, found  # the library is ours
+                    assert not self.report.parts[pou].problems, pou.name  # the library is ours
 
     def _order(self, common: list[Pou]) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]
-        allow(self.report, self.pous)
+        allow(self.report, self.pous, self.declarations.dialect)
         methods += [] if self.life is None else self.life.pou_list()
         roots = (*self.pous.functions.values(), *self.pous.blocks.values(), *methods)
         return Order(self.report, self.pous).of([*common, *(pou for pou in roots if not pou.inline)])

@@ -74,6 +74,9 @@ class Allowance(Enum):
     ACTION_ARGUMENTS = auto()
     OUTSIDE_PARTS = auto()
     TEXT_CASES = auto()
+    RECURSION = auto()
+    LITERAL_VALUES = auto()
+    ADDRESS_OPERATOR = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,6 +381,21 @@ RULES: dict[Allowance, Rule] = {
         "CASE of a STRING or a CHAR, with texts as labels, and ranges of characters",
         "CASE chooses by an integer or an enumeration",
         "`IF text = 'on' THEN`",
+    ),
+    Allowance.RECURSION: Rule(
+        "FUNCTIONs and methods that call themselves, at most 100 deep",
+        "no POU leads to itself",
+        "a loop, with an ARRAY of what is still to be done",
+    ),
+    Allowance.LITERAL_VALUES: Rule(
+        "`numbers := [1, 2, 3(0)]` and `point := (x := 1, y := 2)` among the statements; what is left out has the start value of its type",
+        "only a declaration gives all values of an array or structure",
+        "`numbers[1] := 1; numbers[2] := 2;`",
+    ),
+    Allowance.ADDRESS_OPERATOR: Rule(
+        "`&x` as the address of a variable",
+        "`&` joins two operands, as AND",
+        "`REF(x)`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",

@@ -1,19 +1,41 @@
 """Calls through interfaces that come back: a method may lead to itself on a different instance, as in a tree of instances.
 
 Which instance is called is known at run time only. So a circle is allowed where each way around leads through a call of an
-interface: the POU that finds the method then counts how deep such calls are, and traps where they are too deep. As each POU has
-one frame, the engines keep what is in it while it is called again (`Pou.recursive`).
+interface: the POU that finds the method then counts how deep such calls are, and traps where they are too deep. Where the dialect
+has functions and methods that call themselves, each POU of the circle counts. As each POU has one frame, the engines keep what is
+in it while it is called again (`Pou.recursive`).
 """
 
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.arguments import together
 from scanbench.check.context import Report
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.dialect import Allowance, Dialect, said
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
-from scanbench.program.program import Assign, Base, CallFunction, Compare, Const, Halt, If, Load, Place, Pou, Stmt
+from scanbench.program.program import (
+    Assign,
+    Base,
+    Blocks,
+    CallFunction,
+    Case,
+    Compare,
+    Const,
+    For,
+    Halt,
+    If,
+    Load,
+    Place,
+    Pou,
+    Repeat,
+    Return,
+    Stmt,
+    Try,
+    While,
+)
 from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import BOOL, LINT, UDINT, Section
 
@@ -23,7 +45,7 @@ DEPTH = Place(UDINT, Base.IMAGE, Layout.DEPTH, variable="#depth")
 BUDGET = Place(LINT, Base.IMAGE, Layout.BUDGET, variable="#budget")
 
 
-def allow(report: Report, pous: Pous) -> None:
+def allow(report: Report, pous: Pous, dialect: Dialect) -> None:
     """Finds the circles that are allowed, and makes their calls count. The same for each check of a body."""
     for pou in (*pous.uses, *pous.plain):
         pou.recursive = False
@@ -32,12 +54,21 @@ def allow(report: Report, pous: Pous) -> None:
         report.parts[pou].traps.pop()
     pous.plain.clear()
     dispatchers = {pou for name, pou in pous.dispatchers.items() if _of_interface(pous, name)}
-    for circle in _circles(pous.uses) if dispatchers else ():
-        if _is_allowed(report, circle, dispatchers, pous):
-            for pou in circle:
-                pou.recursive = True
-            for pou in circle & dispatchers:
-                _count(report, pous, pou)
+    everywhere = Allowance.RECURSION in dialect.allows
+    for circle in _circles(pous.uses) if dispatchers or everywhere else ():
+        if any(pou.kind != "function" or pou.inline for pou in circle):
+            continue
+        through = _leads_through(circle, dispatchers, pous)
+        if not through and not everywhere:
+            continue
+        if not through:
+            first = _first(circle)
+            report.warn("W006", said(dialect, Allowance.RECURSION, f"`{first.name}` calls itself"), first.span)
+        _check(report, circle, dispatchers, pous, through)
+        for pou in circle:
+            pou.recursive = True
+        for pou in sorted(circle & dispatchers if through else circle, key=_place):
+            _count(report, pous, pou, through)
 
 
 def _of_interface(pous: Pous, name: str) -> bool:
@@ -47,33 +78,49 @@ def _of_interface(pous: Pous, name: str) -> bool:
     return owner is not None and owner.kind == "interface"
 
 
-def _is_allowed(report: Report, circle: set[Pou], dispatchers: set[Pou], pous: Pous) -> bool:
-    if any(pou.kind != "function" or pou.inline for pou in circle):
-        return False
+def _leads_through(circle: set[Pou], dispatchers: set[Pou], pous: Pous) -> bool:
+    """Whether each way around leads through a call of an interface."""
     rest = circle - dispatchers
     inner = {pou: {callee: 1 for callee in pous.uses.get(pou, {}) if callee in rest} for pou in rest}
-    if next(_circles(inner), None) is not None:
-        return False
+    return next(_circles(inner), None) is None
+
+
+def _check(report: Report, circle: set[Pou], dispatchers: set[Pou], pous: Pous, through: bool) -> None:
+    """Refuses what a call cannot keep while its POU is called again."""
+    rest = circle - dispatchers
     kept = sum(callee.frame.size for pou in circle for callee in pous.uses.get(pou, {}) if callee in circle)
     if kept > MOST_KEPT:
-        _refuse(report, rest, f"the variables of its calls take {kept} bytes, of which at most {MOST_KEPT} are kept")
-        return True
-    for pou in rest:
+        why = f"the variables of its calls take {kept} bytes, of which at most {MOST_KEPT} are kept"
+        _refuse(report, rest, why, through)
+        return
+    for pou in sorted(rest, key=_place):
         if pou.addressed:
-            _refuse(report, rest, f"`{pou.name}` makes a reference to a variable of its own call")
-            return True
+            _refuse(report, rest, f"`{pou.name}` makes a reference to a variable of its own call", through)
+            return
         for call in _calls(pou.body):
             if call.pou in circle and any(
                 _is_own(call, name, given) for name, given in zip(call.pou.parameters, call.args, strict=True)
             ):
-                _refuse(report, rest, f"`{pou.name}` passes a variable of its own call to an in-out")
-                return True
-    return True
+                _refuse(report, rest, f"`{pou.name}` passes a variable of its own call to an in-out", through)
+                return
 
 
-def _refuse(report: Report, pous: set[Pou], why: str) -> None:
-    pou = min(pous, key=lambda each: (each.span.file, each.span.line, each.name))
-    report.error("D009", f"`{pou.name}` may lead to itself through an interface, and {why}.", pou.span)
+def _place(pou: Pou) -> tuple[str, int, str]:
+    return pou.span.file, pou.span.line, pou.name
+
+
+def _first(pous: set[Pou]) -> Pou:
+    return min(pous, key=_place)
+
+
+def _refuse(report: Report, pous: set[Pou], why: str, through: bool) -> None:
+    pou = _first(pous)
+    told = (
+        f"`{pou.name}` may lead to itself through an interface, and {why}."
+        if through
+        else f"`{pou.name}` leads to itself, and {why}."
+    )
+    report.error("D009", told, pou.span)
 
 
 def _is_own(call: CallFunction, name: str, given: object) -> bool:
@@ -100,10 +147,14 @@ def _calls(node: object) -> Iterator[CallFunction]:
             yield from _calls(getattr(node, each.name))
 
 
-def _count(report: Report, pous: Pous, pou: Pou) -> None:
-    """Makes a POU that finds the method count how deep it is called, and take from the budget of loops."""
+def _count(report: Report, pous: Pous, pou: Pou, through: bool) -> None:
+    """Makes a POU count how deep it is called, and take from the budget of loops."""
     span, part = pou.span, report.parts[pou]
-    message = f"calls of interfaces nest more than {Layout.DEPTH_LIMIT} deep: an instance leads to itself"
+    message = (
+        f"calls of interfaces nest more than {Layout.DEPTH_LIMIT} deep: an instance leads to itself"
+        if through
+        else f"calls of `{pou.name}` nest more than {Layout.DEPTH_LIMIT} deep: it leads to itself"
+    )
     part.traps.append(TrapSite(TrapKind.LOOP, span, pou.name, message))
     halt: tuple[Stmt, ...] = (Halt(len(part.traps), span),)
     deeper = fold.binary("add", UDINT, Load(DEPTH), Const(UDINT, 1))
@@ -114,8 +165,36 @@ def _count(report: Report, pous: Pous, pou: Pou) -> None:
     pous.plain[pou] = pou.body
     pou.body = (
         Assign(DEPTH, deeper, span), Assign(BUDGET, left, span),
-        If(((too_deep, halt), (ended, halt)), (), span), *pou.body, Assign(DEPTH, less, span),
+        If(((too_deep, halt), (ended, halt)), (), span), *_leaving(pou.body, Assign(DEPTH, less, span)),
+        Assign(DEPTH, less, span),
     )  # fmt: skip
+
+
+def _leaving(body: tuple[Stmt, ...], first: Stmt) -> tuple[Stmt, ...]:
+    """The statements, with this one before each RETURN."""
+    return tuple(_before_return(each, first) for each in body)
+
+
+def _before_return(node: Stmt, first: Stmt) -> Stmt:
+    match node:
+        case Return(span):
+            return together([first, node], span)
+        case If(branches, orelse):
+            tested = tuple((test, _leaving(inner, first)) for test, inner in branches)
+            return replace(node, branches=tested, orelse=_leaving(orelse, first))
+        case Case(_, chosen, orelse):
+            labelled = tuple((labels, _leaving(inner, first)) for labels, inner in chosen)
+            return replace(node, branches=labelled, orelse=_leaving(orelse, first))
+        case For(body=inner) | While(body=inner) | Repeat(body=inner):
+            return replace(node, body=_leaving(inner, first))
+        case Blocks(blocks):
+            return replace(node, blocks=tuple(_leaving(each, first) for each in blocks))
+        case Try():
+            return replace(
+                node, body=_leaving(node.body, first), handler=_leaving(node.handler, first),
+                final=_leaving(node.final, first),
+            )  # fmt: skip
+    return node
 
 
 def _circles(uses: dict[Pou, dict[Pou, int]]) -> Iterator[set[Pou]]:

@@ -12,7 +12,7 @@ from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
-from scanbench.syntax.pragmas import in_out_pragmas, subrange_policies
+from scanbench.syntax.pragmas import in_out_pragmas, is_external, subrange_policies
 from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import Source
 
@@ -173,8 +173,8 @@ def _slice(tokens: Tokens, first: int, last: int, start: int, end: int) -> Token
 
 def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | None:
     """Start and end of each chunk, and whether it is a POU; None for a file that does not fall into chunks."""
-    if tokens.pragmas and conditions(tokens):
-        return None  # a name that is defined in one is known in the next
+    if tokens.pragmas and (conditions(tokens) or is_external(tokens.pragmas, 0, length)):
+        return None  # a name that is defined in one is known in the next; what is external is tied to a POU
     texts, made, at, index = tokens.texts, [], 0, 0
     marks = [number for number, text in enumerate(texts) if text in MARKS and text in KEYWORDS]
     while index < len(marks):

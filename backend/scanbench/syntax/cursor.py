@@ -62,6 +62,8 @@ class Cursor:
         """Actions that are written apart from their POU, and its name."""
         self.combines = bool(COMBINES.search(source.text))
         """Whether the text may have assignments like `x += 1`."""
+        self.variadic = False
+        """Whether a declaration with `...` was read."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

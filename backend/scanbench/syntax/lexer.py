@@ -81,7 +81,7 @@ PIECE = re.compile(
   | //[^\n]*
   | \(\*[^*(]*+(?:(?:\*(?!\))|\((?!\*))[^*(]*+)*+\*\)
   | /\*[^*/]*+(?:(?:\*(?!/)|/(?!\*))[^*/]*+)*+\*/
-  | \{[^{}]*\}
+  | \{[^{}]*\}|@(?i:EXTERNAL)\b
   | %[A-Za-z]+\*|%[A-Za-z]*\d[\d.]*(?<!\.)|%[A-Za-z]+
   | '(?:\$.|[^$'\n])*' | "(?:\$.|[^$"\n])*"
   | \(\* | /\* | .
@@ -137,8 +137,8 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
                     break
         known = {piece: _readable(piece, kind) for piece, kind in known.items()}
     pragmas = []
-    if "{" in text:
-        pragmas = [(at, piece) for piece, at in zip(pieces, all_starts, strict=False) if piece[0] == "{"]
+    if "{" in text or "@" in text:
+        pragmas = [(at, piece) for piece, at in zip(pieces, all_starts, strict=False) if piece[0] in "{@"]
     every = [known[piece] for piece in pieces]
     kinds = list(compress(every, every))
     shown = {piece: piece.upper() if kind is Lex.KEYWORD else piece for piece, kind in known.items() if kind}

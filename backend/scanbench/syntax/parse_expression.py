@@ -108,6 +108,12 @@ def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
         inner = operand(c)
         c.leave()
         return tree.UnaryOp(UNARY[text], inner, c.span_from(at))
+    if text == "&" and "&" not in (c.texts[at - 1], c.texts[at + 1]):
+        c.take()
+        c.enter()
+        inner = operand(c)
+        c.leave()
+        return tree.UnaryOp("address", inner, c.span_from(at))
     if text == "#" and c.kinds[at + 1] is NAME:
         c.take()
         if c.wires is None:

@@ -25,12 +25,25 @@ def initial(c: Cursor) -> tree.Initial:
         c.leave()
 
 
-def bare_array_initial(c: Cursor) -> tree.Initial:
-    """`1, 2, 3(0)`: an array's values without brackets, as vendors write them."""
+def assigned(c: Cursor) -> tree.Expression:
+    """What follows `:=` among the statements: an expression, or of vendors all values of an array or structure."""
     start = c.at
+    if not c.is_("[") and not (c.is_("(") and c.kinds[start + 1] is NAME and c.texts[start + 2] == ":="):
+        return parse_expression.expression(c)
+    given = initial(c)
+    assert isinstance(given, tree.ArrayInit | tree.StructInit)
+    return tree.Aggregate(given, c.span_from(start))
+
+
+def bare_array_initial(c: Cursor) -> tree.Initial:
+    """`1, 2, 3(0)`: an array's values without brackets, or in parentheses, as vendors write them."""
+    start = c.at
+    closed = c.is_("(") and _is_list(c) and c.accept("(")
     items = [_repeated(c)]
     while c.accept(","):
         items.append(_repeated(c))
+    if closed:
+        c.expect(")", "to close the initial values")
     return tree.ArrayInit(tuple(items), c.span_from(start))
 
 

@@ -9,6 +9,7 @@ from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.networks import NetworkBody, memories
 from scanbench.syntax.parse_declaration import ACCESS
+from scanbench.syntax.parse_generic import TYPE_PARAMETERS, VARIADIC, grouped, type_parameters
 from scanbench.syntax.parse_statement import BLOCK_ENDS
 from scanbench.syntax.parse_type import POU_STARTS
 from scanbench.syntax.pragmas import CALL_AFTER_INIT, InOutPragma, after_init, has_stub_pragma
@@ -37,6 +38,8 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     sections: list[tree.VariableSection] = []
     while kind == "FUNCTION_BLOCK" and c.is_("VAR_GENERIC"):  # before or after what it extends
         sections.append(parse_declaration.section(c))
+    parameters = type_parameters(c) if kind == "FUNCTION" else {}
+    c.variadic = False
     header = _header(c, kind, name)
     in_out = _in_out(c, first) if kind == "FUNCTION_BLOCK" and c.pragmas else ""
     methods: list[tree.PouDeclaration] = []
@@ -68,6 +71,11 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     _pou_end(c, kind, name)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
+    if parameters:
+        sections, result = grouped(parameters, sections, result)
+        modifiers += (TYPE_PARAMETERS,)
+    if c.variadic:
+        modifiers += (VARIADIC,)
     return tree.PouDeclaration(
         kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
         extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy,

@@ -5,7 +5,9 @@ import re
 from scanbench.problems import Problem
 from scanbench.syntax import parse_configuration, parse_declaration, parse_initial, parse_pou, parse_type, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
+from scanbench.syntax.parse_generic import external, named_apart
 from scanbench.syntax.parse_pou import MEMBERS, with_member
+from scanbench.syntax.pragmas import is_external
 from scanbench.syntax.source import Source
 
 TOPS = frozenset(("PROGRAM", "FUNCTION_BLOCK", "FUNCTION", "TYPE", "VAR_GLOBAL", "CONFIGURATION"))
@@ -54,7 +56,7 @@ def _top(c: Cursor, result: tree.File) -> None:
     if text == ";":
         c.take()
     elif text in ("PROGRAM", "FUNCTION_BLOCK", "FUNCTION") or word in ("CLASS", "INTERFACE"):
-        result.pous.append(parse_pou.pou(c, c.namespace, c.visible))
+        _pou(c, result)
     elif text == "TYPE":
         _types(c, result)
     elif text == "VAR_GLOBAL":
@@ -65,12 +67,14 @@ def _top(c: Cursor, result: tree.File) -> None:
         _namespace(c, result)
     elif word == "USING":
         c.visible += parse_pou.using_names(c)
+    elif word == "ACTION" and (owner := named_apart(c)) is not None:
+        c.actions.append((owner, c.here(), parse_pou.member(c, "FUNCTION_BLOCK")))
     elif word == "ACTIONS":
         _actions(c, result)
     elif word in MEMBERS and result.pous:
         # exports of vendors write methods and actions after the POU they belong to
-        owner = result.pous[-1]
-        result.pous[-1] = with_member(owner, parse_pou.member(c, owner.kind.upper()))
+        last = result.pous[-1]
+        result.pous[-1] = with_member(last, parse_pou.member(c, last.kind.upper()))
     elif (refused := word or text) in REFUSED:
         c.report("X001", f"{refused} is not supported here; {REFUSED[refused]}.", c.here())
         raise Unexpected
@@ -83,6 +87,15 @@ def _top(c: Cursor, result: tree.File) -> None:
         raise Unexpected
     else:
         raise c.fail("PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL or CONFIGURATION expected")
+
+
+def _pou(c: Cursor, result: tree.File) -> None:
+    first = c.at
+    pou = parse_pou.pou(c, c.namespace, c.visible)
+    if c.pragmas and is_external(c.pragmas, c.end_of(first - 1) if first else 0, c.starts[first]):
+        pou, given = external(c, pou)
+        result.globals += [] if given is None else [given]
+    result.pous.append(pou)
 
 
 def _actions(c: Cursor, result: tree.File) -> None:

@@ -6,6 +6,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_expression import expression, operand
+from scanbench.syntax.parse_initial import assigned
 from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
 BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT",
@@ -102,11 +103,11 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
         return combined
     target = expression(c)
     if c.accept(":="):
-        value = expression(c)
+        value = assigned(c)
         also = []
         while c.accept(":="):
             also.append(value)
-            value = expression(c)
+            value = assigned(c)
         span = c.span_from(start)
         c.close(";", "at the end of the assignment")
         return tree.Assignment(target, value, span, also=tuple(also))

@@ -4,6 +4,7 @@ from scanbench.problems import Span
 from scanbench.syntax import parse_expression, parse_initial, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_generic import any_number_follows
 from scanbench.syntax.pragmas import POLICIES
 from scanbench.syntax.source import Stretch
 
@@ -201,7 +202,13 @@ def _variables(c: Cursor) -> list[tree.Variable]:
     if address is None:
         address, address_span = located(c)
     c.expect(":", f"after `{c.texts[names[-1]]}`, then its type")
+    if any_number_follows(c):
+        c.close(";", f"after the declaration of `{c.texts[names[0]]}`")
+        return []
     spec = type_spec(c)
+    if any_number_follows(c):
+        c.close(";", f"after the declaration of `{c.texts[names[0]]}`")
+        return []
     edge = c.word()[0] if c.word() in ("R_EDGE", "F_EDGE") else ""
     if edge:
         c.take()

@@ -1,6 +1,6 @@
 """Pragmas that mean something; all others are comments.
 
-`{in_out 'value'}` before a FUNCTION_BLOCK or in its head; `{subrange 'trap'}` before the declaration of a variable, a type or a POU; `{stub}` in a POU; `{attribute 'call_after_init'}` before a METHOD.
+`{in_out 'value'}` before a FUNCTION_BLOCK or in its head; `{subrange 'trap'}` before the declaration of a variable, a type or a POU; `{stub}` in a POU; `{external}` or `@EXTERNAL` before one; `{attribute 'call_after_init'}` before a METHOD.
 """
 
 import re
@@ -15,6 +15,7 @@ POLICIES: tuple[PolicyName, ...] = get_args(PolicyName)
 _SUBRANGE = re.compile(r"\{\s*subrange\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
 _STUB = re.compile(r"\{\s*stub\s*\}", re.IGNORECASE)
 
+_EXTERNAL = re.compile(r"\{\s*external\s*\}|@external", re.IGNORECASE)
 _AFTER_INIT = re.compile(r"\{\s*attribute\s+'call_after_init'\s*\}", re.IGNORECASE)
 CALL_AFTER_INIT = "CALL_AFTER_INIT"
 """Modifier of a method that runs when its instance is initialised."""
@@ -65,6 +66,11 @@ def subrange_policies(pragmas: Iterable[tuple[int, str]]) -> list[SubrangePragma
 def has_stub_pragma(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:
     """Whether the POU between these positions is a stub."""
     return any(start <= at < end and _STUB.fullmatch(text) for at, text in pragmas)
+
+
+def is_external(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:
+    """Whether one between these positions says that a body is in another language."""
+    return any(start <= at < end and _EXTERNAL.fullmatch(text) for at, text in pragmas)
 
 
 def after_init(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:

@@ -128,19 +128,18 @@ class Call:
     span: Span
 
 
+@node
+class Aggregate:
+    """`[1, 2, 3(0)]` or `(x := 1, y := 2)` as what is assigned, among the statements of vendors."""
+
+    value: "ArrayInit | StructInit"
+    span: Span
+
+
 Expression = (
-    Literal
-    | Name
-    | TypedName
-    | DirectAddress
-    | MemberOf
-    | IndexOf
-    | Dereference
-    | PartialAccess
-    | UnaryOp
-    | BinaryOp
-    | Call
-)
+    Literal | Name | TypedName | DirectAddress | MemberOf | IndexOf | Dereference
+    | PartialAccess | UnaryOp | BinaryOp | Call | Aggregate
+)  # fmt: skip
 """THIS and SUPER are a Name; `THIS^.x` (vendors) dereferences it, `THIS.x` (the standard) does not."""
 
 # ---- declarations --------------------------------------------------------------------------------------------

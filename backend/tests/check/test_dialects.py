@@ -84,6 +84,8 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
     (Allowance.VENDOR_OPERATORS, "i := ANY_TO_INT(d);", "TO_INT(...)"),
+    (Allowance.LITERAL_VALUES, "numbers := [i, 2];", "numbers[1] := 1;"),
+    (Allowance.ADDRESS_OPERATOR, "ok := &i <> NULL;", "REF(i)"),
     (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
     (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
     (Allowance.ROUNDING, "d := 2.5;", "`2`"),
@@ -256,7 +258,7 @@ APART = {
     Allowance.GENERIC_CONSTANTS, Allowance.HALVES_AWAY,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
-    Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES,
+    Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

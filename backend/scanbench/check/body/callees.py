@@ -8,7 +8,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
 from scanbench.check.body.methods import send
 from scanbench.check.body.objects import dotted, own_class
-from scanbench.check.body.overloads import method_overload, overload
+from scanbench.check.body.overloads import method_overload, of_types, overload
 from scanbench.check.body.receivers import Receiver, is_qualified, method_called
 from scanbench.check.body.standard_calls import standard_call
 from scanbench.check.body.variables import is_broken
@@ -61,6 +61,9 @@ def callee_of(
     if key is not None:
         body.report.use(callee.span, name, Symbol("pou", "", key.partition("(")[0]))
     if key in body.pous.generic:
+        typed = of_types(body, key, node)
+        if typed is not None:
+            return typed
         return instantiated(body, body.pous.generic[key], node or tree.Call(callee, (), callee.span))
     return found
 
@@ -80,8 +83,19 @@ def hides(body: Body, path: str) -> bool:
 def invoked(body: Body, callee: Pou | tuple[Receiver, Method], node: tree.Call, eno: Place | None = None) -> Invocation:
     """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
     if isinstance(callee, Pou):
+        if callee.name.upper() in body.pous.variadic:
+            node = without_more(body, node, callee)
         return invoke(body, node, callee, callee.name, None, eno)
     return send(body, *callee, node, eno)
+
+
+def without_more(body: Body, node: tree.Call, callee: Pou) -> tree.Call:
+    """The call without the arguments that its FUNCTION does not name, which are only checked: it is a stub."""
+    named = sum(each != "ENO" for each in callee.parameters)
+    for each in node.arguments[named:]:
+        if each.value is not None:
+            body.expression(each.value)
+    return replace(node, arguments=node.arguments[:named])
 
 
 def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Place | None = None) -> Expr:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.aggregates import aggregate
 from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
@@ -18,6 +19,7 @@ from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
 from scanbench.check.body.parts import part, part_type
 from scanbench.check.body.places import automatic
 from scanbench.check.body.references import reference_type
+from scanbench.check.body.referring import addressed, refer
 from scanbench.check.body.subrange_checks import as_written, plain, read
 from scanbench.check.body.variables import INSTANCE
 from scanbench.check.body.variants import asked, with_types
@@ -57,8 +59,12 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
     match node:
         case tree.Literal():
             return literal(body, node, wanted)
+        case tree.UnaryOp("address", operand, span):
+            return refer(body, addressed(body, operand, span), pointer=True)
         case tree.UnaryOp():
             return _unary(body, node, wanted)
+        case tree.Aggregate():
+            return aggregate(body, node, wanted)
         case tree.BinaryOp():
             return _binary(body, node, wanted)
         case tree.Call():

@@ -13,6 +13,7 @@ from scanbench.program.program import Expr, Pou
 from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, base_of
 from scanbench.program.untyped import common, is_untyped, settle
 from scanbench.syntax import tree
+from scanbench.syntax.parse_generic import TYPE_PARAMETERS
 
 WHOLE = (Kind.INT, Kind.UINT)
 MOMENTS = (Kind.DATE,)
@@ -118,9 +119,10 @@ def _make(
     return Instance(called_pou(key, made, own), made)
 
 
-def is_generic(declaration: tree.PouDeclaration) -> bool:
-    """Whether a FUNCTION has parameters of a generic type."""
-    return declaration.kind == "function" and bool(_generics(declaration))
+def is_generic(declaration: tree.PouDeclaration, values: bool = True) -> bool:
+    """Whether a FUNCTION has parameters of a generic type. Without `values` the dialect has its own meaning of ANY_NUM and its like."""
+    named = values or TYPE_PARAMETERS in declaration.modifiers
+    return named and declaration.kind == "function" and bool(_generics(declaration))
 
 
 def _generics(declaration: tree.PouDeclaration) -> list[str]:

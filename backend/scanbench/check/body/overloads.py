@@ -10,6 +10,7 @@ from scanbench.program.program import Expr, Pou
 from scanbench.program.types import Elementary, StringType, Type
 from scanbench.program.untyped import is_untyped, settle
 from scanbench.syntax import tree
+from scanbench.syntax.parse_generic import TYPE_PARAMETERS
 
 SAME, LITERAL, CONVERTED, GENERIC = 4, 3, 2, 1
 """How well an argument fits: its type; a literal of its kind; one that is converted without a name; any type of a group."""
@@ -27,6 +28,19 @@ def overload(body: Body, key: str, node: tree.Call) -> str:
     fitting = [(each, _fit(body, each, values)) for each in keys]
     best = max(fitting, key=lambda each: (each[1], -_inputs(body.pous.functions.get(each[0]))))
     return best[0] if best[1] >= 0 else key
+
+
+def of_types(body: Body, key: str, node: tree.Call | None) -> Pou | None:
+    """What runs for the types of these arguments where a FUNCTION has type parameters: `Twice__INT` of `Twice<T: ANY_NUM>`."""
+    if TYPE_PARAMETERS not in body.pous.generic[key].modifiers or node is None:
+        return None
+    keys = [each for each in body.pous.functions if each.startswith(f"{key}__")]
+    values = _values(body, node) if keys else None
+    if values is None:
+        return None
+    fitting = [(_fit(body, each, values), each) for each in keys]
+    best = max(fitting, key=lambda each: each[0])
+    return body.pous.functions[best[1]] if best[0] >= 0 else None
 
 
 def method_overload(body: Body, receiver: Receiver, method: Method, node: tree.Call) -> Method:

@@ -6,6 +6,7 @@ from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.targets import note_written, writable
 from scanbench.check.dialect import Allowance
+from scanbench.problems import Span
 from scanbench.program.program import Base, RefOf
 from scanbench.program.shown import shown
 from scanbench.program.types import Member, OpenArray, Section
@@ -40,3 +41,12 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: boo
     how = " What is referred to could be written: pass its value, or pass it to a VAR_IN_OUT CONSTANT."
     writable(body, place, node.span, how)
     return RefOf(place, reference_type(place.type, pointer))
+
+
+def addressed(body: Body, node: tree.Expression, span: Span) -> tree.Expression:
+    """What `&` stands before, where the dialect has that."""
+    if not allowed(body, Allowance.ADDRESS_OPERATOR, span, f"`&{shown(node)}` is an address", f"`REF({shown(node)})`"):
+        raise body.report.reject(
+            "S003", f"`&` joins two operands; the address of a variable is `REF({shown(node)})`.", span
+        )
+    return node

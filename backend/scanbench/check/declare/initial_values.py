@@ -67,6 +67,9 @@ def _image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
             return _parts(declared, value, type)
         case tree.StructInit():
             return _record(declared, value, type)
+    if declared.in_body and isinstance(type, Reference):
+        declared.given.append(StartExpression(0, type, value))
+        return initial_of(type)
     if isinstance(type, Reference) and refers(declared, type, value):
         declared.given.append(StartReference(0, type, value))
         return initial_of(type)
@@ -78,6 +81,9 @@ def _image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
 
 def _bytes(declared: Declarations, value: tree.Expression, type: Elementary | StringType) -> bytes:
     """Those of a constant; what is none is computed later, where the dialect has that."""
+    if declared.in_body and not isinstance(value, tree.Literal):
+        declared.given.append(StartExpression(0, type, value))
+        return initial_of(type)
     if Allowance.START_EXPRESSIONS not in declared.dialect.allows or isinstance(value, tree.Literal):
         return encode(type, declared.constant_of(value, type))
     mark = declared.report.mark()

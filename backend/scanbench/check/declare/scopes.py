@@ -128,6 +128,8 @@ class Pous:
     classes: Classes = field(default_factory=Classes)
     generic: dict[str, tree.PouDeclaration] = field(default_factory=dict)
     """FUNCTIONs with parameters of ANY_NUM and its like."""
+    variadic: set[str] = field(default_factory=set)
+    """FUNCTIONs that may be called with more arguments than they name."""
     overloads: dict[str, list[str]] = field(default_factory=dict)
     """Of a FUNCTION whose name others have as well, the keys of those."""
     instances: dict[str, Instance] = field(default_factory=dict)
