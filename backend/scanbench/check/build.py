@@ -386,7 +386,7 @@ class Checker:
         self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
         with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
             scope = self._scope(pou, declaration, instance, space, this)
-            pou.body = pou_body(body_of(self.report, self.declarations, self.pous, scope, pou), declaration.body)
+            pou.body = pou_body(body_of(self.report, self.declarations, self.pous, scope, pou), declaration)
 
     def _scope(
         self, pou: Pou, declaration: tree.PouDeclaration, instance: Record, space: Space, this: Place | None

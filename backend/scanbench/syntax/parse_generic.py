@@ -43,6 +43,8 @@ def grouped(
             return tree.NamedType(parameters[spec.name.upper()], spec.span)
         return spec
 
+    if not parameters:
+        return sections, result
     made = [
         replace(section, variables=tuple(replace(each, type=settled(each.type)) for each in section.variables))
         for section in sections

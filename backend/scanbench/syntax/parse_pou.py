@@ -71,11 +71,8 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     _pou_end(c, kind, name)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
-    if parameters:
-        sections, result = grouped(parameters, sections, result)
-        modifiers += (TYPE_PARAMETERS,)
-    if c.variadic:
-        modifiers += (VARIADIC,)
+    sections, result = grouped(parameters, sections, result)
+    modifiers += (TYPE_PARAMETERS,) * bool(parameters) + (VARIADIC,) * c.variadic
     return tree.PouDeclaration(
         kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
         extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy,

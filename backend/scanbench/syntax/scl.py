@@ -13,6 +13,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
 from scanbench.syntax.parse_st import whole
+from scanbench.syntax.scl_overlays import with_overlays
 from scanbench.syntax.scl_words import SYSTEM_TAGS, Words
 from scanbench.syntax.source import Source
 
@@ -62,6 +63,7 @@ def parse_scl(source: Source) -> tuple[tree.File, list[Problem]]:
     for at, pou in enumerate(file.pous):
         if pou.name in writer.restarts:
             file.pous[at] = replace(pou, modifiers=(*pou.modifiers, STARTUP))
+        file.pous[at] = with_overlays(file.pous[at])
     return file, told
 
 

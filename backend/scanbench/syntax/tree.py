@@ -348,6 +348,7 @@ class PouDeclaration:
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
     overload: str = ""  # of the second FUNCTION of one name `(2)`, and so on; of methods of one name `(INT)`
     policy: str = ""  # of values outside of subranges in its statements, whose variables say none
+    overlays: tuple[tuple[str, str, Span], ...] = ()  # of SCL: variables AT another one, both in upper case, and where
 
 
 @node

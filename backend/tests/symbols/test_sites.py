@@ -61,8 +61,9 @@ def written(node: object, used: set[str]) -> Iterator[Span]:
             yield from written(each, used)
     elif is_dataclass(node) and not isinstance(node, type):
         if isinstance(node, tree.PouDeclaration) and node.kind in ("program", "function"):
-            if node.name.upper() not in used:
-                return
+            first = node.body[0] if isinstance(node.body, tuple) and node.body else None
+            if node.name.upper() not in used or (first is not None and first.span == node.span):
+                return  # the latter is made of `{external}`: nobody wrote it
         if isinstance(node, networks.NetworkBody):
             yield from of_rungs(node)
             return

@@ -278,6 +278,11 @@ def literal_shifted(body: Body, name: str, expr: Expr, count: Expr, span: Span) 
 
 def literal_inverted(body: Body, expr: Expr, wanted: Type | None, span: Span) -> Const | None:
     """NOT of a number without a type: with 250 and -6 for `NOT 5`, only a type of as many bits tells what it is."""
+    if (typed := literal_of(body, expr, wanted)) is not None:
+        used(body, Allowance.INTEGER_SHIFTS, span, f"`NOT` works on the bits of {typed.type}")
+        assert isinstance(typed.type, Elementary)
+        assert isinstance(typed.value, int)
+        return Const(typed.type, wrap(~typed.value, typed.type))
     if not isinstance(expr, Const) or expr.type != ANY_INT or not may(body, Allowance.INTEGER_BITS):
         return None
     number, made = int(expr.value), None
@@ -294,6 +299,21 @@ def literal_inverted(body: Body, expr: Expr, wanted: Type | None, span: Span) ->
     instead = f"`WORD_TO_INT(NOT WORD#{number})`"
     used(body, Allowance.INTEGER_BITS, span, f"`NOT` works on the bits of the number {number}", instead)
     return made
+
+
+def literal_of(body: Body, expr: Expr, wanted: Type | None) -> Const | None:
+    """A number without a type as one of the integer that is wanted, as TIA takes it; None of others, and in other dialects."""
+    if not may(body, Allowance.INTEGER_SHIFTS) or may(body, Allowance.INTEGER_BITS) or not isinstance(expr, Const):
+        return None
+    if (
+        expr.type != ANY_INT
+        or not isinstance(wanted, Elementary)
+        or wanted.kind not in WHOLE
+        or not isinstance(expr.value, int)
+    ):
+        return None
+    low, high = bounds(base_of(wanted))
+    return Const(base_of(wanted), expr.value) if low <= expr.value <= high else None
 
 
 def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:

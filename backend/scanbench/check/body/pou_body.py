@@ -11,8 +11,10 @@ from scanbench.check.body.il import InstructionList
 from scanbench.check.body.jumps import parted
 from scanbench.check.body.network_body import network_statements
 from scanbench.check.body.notes import SUFFIX as NOTE
+from scanbench.check.body.overlays import overlaid
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
+from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode, place_of
 from scanbench.check.life.start import Writer
 from scanbench.program.program import Assign, Base, Blocks, SetBytes, Stmt
@@ -23,8 +25,9 @@ from scanbench.syntax.chart import Chart
 from scanbench.syntax.networks import NetworkBody
 
 
-def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart) -> tuple[Stmt, ...]:
+def pou_body(body: Body, declaration: tree.PouDeclaration) -> tuple[Stmt, ...]:
     """The body of a POU, in the language in which it is written."""
+    written = declaration.body
     body.counters, body.loops, body.final = [], 0, None
     prologue, checks = _prologue(body), len(body.report.checks)
     if body.pou is not None and body.pou.kind != "function":
@@ -37,12 +40,22 @@ def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | Net
         case Chart():
             made = chart_statements(body, written)
         case _:
-            made = _text(body, written)
+            made = _text(body, _overlaid(body, declaration, written))
     if len(body.report.checks) > checks:
         made = without_needless(body.report, tuple(made))
     if body.pou is not None and body.pou.kind == "function_block":
         made = around(body.pou.instance, tuple(made), partial(_not_connected, body))
     return (*prologue, *made)
+
+
+def _overlaid(
+    body: Body, declaration: tree.PouDeclaration, written: tuple[tree.Statement, ...]
+) -> tuple[tree.Statement, ...]:
+    """With what keeps the variables that are AT others."""
+    try:
+        return overlaid(body, declaration.overlays, written) if declaration.overlays else written
+    except Rejected:
+        return written
 
 
 def _text(body: Body, written: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:

@@ -44,7 +44,7 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: boo
 
 
 def addressed(body: Body, node: tree.Expression, span: Span) -> tree.Expression:
-    """What `&` stands before, where the dialect has that."""
+    """What comes after `&`, where the dialect has that."""
     if not allowed(body, Allowance.ADDRESS_OPERATOR, span, f"`&{shown(node)}` is an address", f"`REF({shown(node)})`"):
         raise body.report.reject(
             "S003", f"`&` joins two operands; the address of a variable is `REF({shown(node)})`.", span

@@ -11,6 +11,7 @@ from scanbench.check.body.lenient import (
     bits_of,
     inverted,
     literal_inverted,
+    literal_of,
     literal_shifted,
     shifted,
     shifted_with_sign,
@@ -135,6 +136,7 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
     elif isinstance(bits, Const) and isinstance(wanted, Elementary) and wanted.kind is Kind.BITS:
         bits = coerce(body, bits, wanted, bits_tree.span, "`IN`")
     if may(body, Allowance.INTEGER_SHIFTS):
+        bits = literal_of(body, bits, wanted) or bits
         moved = integer(body, body.expression(count_tree), count_tree.span, name)
         signed = shifted_with_sign(body, row.intrinsic, bits, moved, bits_tree.span)
         if signed is not None:

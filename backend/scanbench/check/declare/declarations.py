@@ -128,7 +128,7 @@ class Declarations:
     computed: dict[tuple[str, str], list[StartExpression]] = field(default_factory=dict)
     """By the names of the record and the variable, in upper case."""
     in_body: bool = False
-    """Whether start values stand among the statements, so that all but literals are computed there."""
+    """Whether the values that are read are among the statements, so that all but literals are computed there."""
     given: list[Given] = field(default_factory=list)
     """What is apart from the bytes in the initial value that is being read, counted from its beginning."""
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
