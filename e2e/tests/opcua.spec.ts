@@ -3,9 +3,10 @@ import { DataType } from 'node-opcua-client';
 import { connect } from '../fixtures/opcua';
 import { expect, test } from '../fixtures/test';
 
-test('an operator panel that speaks OPC UA shows an error that is raised here, and what it writes shows with its name', {
-  tag: '@nightly',
-}, async ({ openAs, server }) => {
+test('an operator panel that speaks OPC UA shows an error that is raised here, and what it writes shows with its name', async ({
+  openAs,
+  server,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const { page } = jo;
@@ -29,6 +30,7 @@ test('an operator panel that speaks OPC UA shows an error that is raised here, a
   expect(address).toMatch(/^opc\.tcp:\/\/127\.0\.0\.1:\d+$/);
   const panel = await connect(address, 'Lia', new URL(server.address).searchParams.get('token') ?? '');
   const present = panel.show('ns=2;i=20');
+  const alarms = await panel.alarms();
 
   await test.step('what it writes is in the memory, and in the events with its name', async () => {
     expect(await panel.write('ns=2;s=D20000', DataType.UInt16, 42)).toBe('Good');
@@ -49,6 +51,13 @@ test('an operator panel that speaks OPC UA shows an error that is raised here, a
     await expect(opcua).toContainText('BadUserAccessDenied');
     await server.post(`/instances/${server.instance}/errors/recover`, { ids: ['battery-error'] });
     await expect.poll(present).toEqual([]);
+  });
+
+  await test.step('the error is an alarm, until it is gone and somebody at the panel has acknowledged it', async () => {
+    await expect.poll(alarms.all).toEqual([{ active: false, acknowledged: false, severity: 500 }]);
+    expect(await alarms.acknowledge('a new battery is in')).toBe('Good');
+    await expect.poll(alarms.all).toEqual([]);
+    await expect(page.locator('[data-pane=log]')).toContainText('battery-error was acknowledged: a new battery is in');
   });
 
   await test.step('it can be read by everybody', async () => {

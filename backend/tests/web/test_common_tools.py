@@ -35,16 +35,24 @@ def test_programs_that_everybody_has_find_the_plc(server: Server) -> None:
     until(lambda: f"[401]: \t{BATTERY}" in said(*error))
     recover_battery_error(server, instance)
     until(lambda: "[401]: \t0" in said(*error))
-    beyond = subprocess.run([*poll[:6], "32769", *poll[7:], "1"], capture_output=True, text=True, check=False)
-    assert "Illegal data address" in beyond.stderr + beyond.stdout, "a write where there is no register is refused"
-    said("mbpoll", "-m", "tcp", "-p", str(other), "-r", "3205", "-1", "-q", "-t", "0", "127.0.0.1", "1")
-    assert client_reads(other, 3204)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    own = {"text": "group,first,last,from\nholding register,0,0,A400\ncoil,0,15,CIO200.00\n", "version": 0}
+    server.http.put(f"/api/projects/{project}/files/modbus.csv", json=own).raise_for_status()
+    clear = ["mbpoll", "-m", "tcp", "-p", str(other), "-r", "1", "-1", "-q", "-t", "4", "127.0.0.1", "0"]
+    until(lambda: "Illegal data address" in refused(*clear))  # error memory is read-only, however it is mapped
+    said("mbpoll", "-m", "tcp", "-p", str(other), "-r", "5", "-1", "-q", "-t", "0", "127.0.0.1", "1")
+    assert client_reads(other, 4)
 
 
 def said(*command: str) -> str:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
+
+
+def refused(*command: str) -> str:
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.stdout + done.stderr
 
 
 def client_reads(port: int, coil: int) -> bool:

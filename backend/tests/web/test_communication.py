@@ -418,16 +418,21 @@ def test_a_project_has_a_map_of_modbus_of_its_own(server: Server) -> None:
         wrong = server.http.put(file, json={"text": "group,first,last,from\ncoil,0,1,D0\n", "version": 0})
         assert wrong.status_code == 422
         assert wrong.json()["message"].startswith("modbus.csv, line 2: a range begins at bit 0 of a word")
-        text = "group,first,last,from\nholding register,0,1,D100\ndiscrete input,0,15,CIO100.00\n"
+        text = "group,first,last,from\nholding register,0,1,D100\nholding register,2,2,A400\ndiscrete input,0,15,CIO100.00\n"
         saved = server.http.put(file, json={"text": text, "version": 0}).json()
         until(lambda: client.read_holding_registers(5000, count=1).isError())
         assert not client.write_registers(0, [21]).isError()
         until(lambda: client.read_holding_registers(0, count=2).registers == [21, 42])
         assert client.read_coils(0, count=1).exception_code == 2, "it has no coils"
+        assert client.write_registers(1, [7, 0]).exception_code == 2, (
+            "error memory is read-only, and nothing is written"
+        )
+        assert client.read_holding_registers(0, count=3).registers == [21, 42, 0]
         told = server.http.get(f"/api/instances/{instance}/communication").json()
         assert (told["own_map"], told["map_trouble"]) == (True, "")
         table = server.http.get(f"/api/instances/{instance}/communication/modbus/map.csv").text.splitlines()
-        assert table[1:] == ["holding register,0,1,D100,D101,1", "discrete input,0,15,CIO100.00,CIO100.15,1"]
+        assert table[2] == "holding register,2,2,A400,A400,1"
+        assert table[1::2] == ["holding register,0,1,D100,D101,1", "discrete input,0,15,CIO100.00,CIO100.15,1"]
         built = server.http.post(f"/api/projects/{project}/build", json={})
         assert built.status_code == 200, "a build leaves it out"
         deleted = server.http.delete(file, params={"version": saved["version"]})

@@ -5,10 +5,11 @@ from typing import Any
 
 from asyncua import ua
 from asyncua.server import internal_subscription, monitored_item_service
-from asyncua.server.monitored_item_service import MonitoredItemService, MonitoredItemValues
+from asyncua.server.monitored_item_service import MonitoredItemService, MonitoredItemValues, WhereClauseEvaluator
 from asyncua.server.subscription_service import SubscriptionService
 from asyncua.ua import uaprotocol_auto
 
+from scanbench.comm.opcua.ids import standard
 from scanbench.comm.opcua.space import Variable
 
 log = logging.getLogger("scanbench")
@@ -16,6 +17,8 @@ _NUMBERS = frozenset({
     ua.VariantType.SByte, ua.VariantType.Byte, ua.VariantType.Int16, ua.VariantType.UInt16, ua.VariantType.Int32,
     ua.VariantType.UInt32, ua.VariantType.Int64, ua.VariantType.UInt64, ua.VariantType.Float, ua.VariantType.Double,
 })  # fmt: skip
+
+_SUBTYPE = standard(ua.ObjectIds.HasSubtype)
 
 
 def refusal(asked: ua.MonitoredItemCreateRequest, variable: Variable | None) -> int:
@@ -74,6 +77,27 @@ class _Items(MonitoredItemService):
             log.exception("a subscriber of OPC UA could not be told of an event")
 
 
+class _Where(WhereClauseEvaluator):
+    """asyncua's, for which an event is of a type also where it is of a subtype: lists of alarms ask for ConditionType, say."""
+
+    def _eval_el(self, index: int, event: Any) -> Any:
+        element = self.elements[index]
+        if element.FilterOperator != ua.FilterOperator.OfType:
+            return super()._eval_el(index, event)
+        wanted, type = self._eval_op(element.FilterOperands[0], event), event.EventType
+        while type is not None and type != wanted:
+            type = self._above(type)
+        return type is not None
+
+    def _above(self, type: ua.NodeId) -> ua.NodeId | None:
+        if type not in self._aspace:
+            return None
+        above = (
+            each for each in self._aspace[type].references if each.ReferenceTypeId == _SUBTYPE and not each.IsForward
+        )
+        return next((each.NodeId for each in above), None)
+
+
 class Publishing:
     """Tells clients right after values were read: in asyncua each subscription has a clock of its own, so that a value lies there for half
     of its interval in the mean. That clock goes on, for what is no value."""
@@ -104,4 +128,5 @@ def _number(value: ua.DataValue | None) -> float | None:
 
 
 vars(monitored_item_service)["MonitoredItemValues"] = _Told
+vars(monitored_item_service)["WhereClauseEvaluator"] = _Where
 vars(internal_subscription)["MonitoredItemService"] = _Items
