@@ -239,7 +239,7 @@ def shown_violations(program: Program, memory: bytearray) -> list[str]:
     """A line for each: `line:column instance variable = value, low..high, times, scans first..last`."""
     found = read_violations(program, memory)
     lines = [
-        f"{each.span.line}:{each.span.column} {each.instance or each.pou} {each.variable} = {each.value}, "
+        f"{each.span.line}:{each.span.column} {each.instance or each.pou} {each.name} = {'beyond ' * each.beyond}{each.value}, "
         f"{each.low}..{each.high}, {each.times}, scans {each.first_scan}..{each.last_scan}"
         for each in found.entries
     ]

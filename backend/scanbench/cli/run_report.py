@@ -125,7 +125,7 @@ def _violations(resource: Resource) -> list[Json]:
     return [
         {
             "file": each.span.file, "line": each.span.line, "column": each.span.column, "pou": each.pou,
-            "instance": each.instance, "variable": each.variable, "value": each.value, "low": each.low,
+            "instance": each.instance, "variable": each.variable, "target": each.target, "value": each.value, "low": each.low,
             "high": each.high, "times": each.times, "first_scan": each.first_scan, "last_scan": each.last_scan,
         }
         for each in read_violations(resource.program, resource.memory).entries

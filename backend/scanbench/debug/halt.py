@@ -39,6 +39,8 @@ class Left:
     """`Belt.st:12`."""
     calls: tuple[str, ...]
     """The calls that were open, the innermost first: `FB_Belt Main.belt[2] Belt.st:12`."""
+    target: str = ""
+    """Path of the variable, where `variable` is an in-out, or leads through one or through a reference."""
 
 
 @dataclass(frozen=True, slots=True)

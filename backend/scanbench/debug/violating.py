@@ -17,8 +17,8 @@ class Violating:
     def __init__(self, resource: Resource, placing: Placing) -> None:
         self._resource, self._placing = resource, placing
         self._listens = False
-        self._times: dict[tuple[int, str], int] = {}
-        """Of each place and instance how often so far."""
+        self._times: dict[tuple[int, str, str], int] = {}
+        """Of each entry how often so far."""
         self._frames: tuple[Frame, ...] = ()
         """The calls that are open in the statement that runs."""
 
@@ -26,7 +26,7 @@ class Violating:
         """Before each run."""
         self._listens, self._frames = listens, ()
         if listens:
-            self._times = {(each.site, each.instance): each.times for each in self._entries()}
+            self._times = {each.key: each.times for each in self._entries()}
 
     def statement(self) -> None:
         """Before a statement."""
@@ -35,8 +35,8 @@ class Violating:
 
     def found(self, breakpoint: Breakpoint) -> Found:
         """The halt after a statement in which something was recorded."""
-        new = [each for each in self._entries() if each.times != self._times.get((each.site, each.instance))]
-        self._times |= {(each.site, each.instance): each.times for each in new}
+        new = [each for each in self._entries() if each.times != self._times.get(each.key)]
+        self._times |= {each.key: each.times for each in new}
         ids = (breakpoint.id,)
         if not new:  # the list is full
             return Found("violation", "a value left its subrange", breakpoint.author, ids)
@@ -49,10 +49,11 @@ class Violating:
             one.instance,
             f"{one.span.file}:{one.span.line}",
             tuple(self._calls()),
+            one.target,
         )
         text = "EN_CHECK: ENO was FALSE"
         if one.variable != "EN_CHECK":
-            text = f"{one.variable} was {one.value}, outside of {one.low}..{one.high}"
+            text = f"{one.name} was {one.value}, outside of {one.low}..{one.high}"
         where = one.instance or one.pou
         return Found("violation", f"{text}, at {left.place} in {where}", breakpoint.author, ids, left)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from scanbench.program.types import BOOL, SLOT_BYTES, ArrayType, Record, Type, actual_of, has_copies
 
 BYTE_OFFSET, BIT_SHIFT, BITS = 0xFFFF_FFFF, 32, 7
-_DEEPEST = 256
+DEEPEST = 256
 """Blocks that pass an in-out on to each other; an image from a file may hold a circle."""
 
 Image = bytes | bytearray | memoryview
@@ -42,10 +42,15 @@ class Copies:
         was never called, or is not connected any more."""
         return [*self.chain(memory, offset, bit)][-1] if self.all else (offset, bit)
 
+    def source(self, memory: Image, offset: int) -> int:
+        """The byte that this one is a copy of in the end, as far as blocks are connected."""
+        known = [each[0] for each in self.chain(memory, offset, None) if each is not None] if self.all else []
+        return known[-1] if known else offset
+
     def chain(self, memory: Image, offset: int, bit: int | None) -> Iterator[Spot | None]:
         """It, and what it is a copy of, and so on up to the variable itself; ends with None where a block is not connected."""
         yield offset, bit
-        for _ in range(_DEEPEST):
+        for _ in range(DEEPEST):
             copy = self.at(offset)
             if copy is None:
                 return

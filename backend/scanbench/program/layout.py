@@ -78,8 +78,17 @@ class Layout:
     """Entries of the list of violations."""
     VIOLATION_BYTES: ClassVar[int] = 48
     """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body or method has the check
-    (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
-    pairs in the order in which they first happened."""
+    (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, and a u64 that says more. Entries are (site, instance,
+    bound variable) triples in the order in which they first happened."""
+    VIOLATION_BOUND: ClassVar[int] = (1 << 32) - 1
+    """Bits of what says more: byte offset of the variable that was checked by the name of an in-out or through a reference, found through the
+    copies of in-outs by value (`Copies.chain`); 0 for a variable that was checked by its own name."""
+    VIOLATION_WIDE: ClassVar[int] = 61
+    """A bit of it: the value has 65 bits, as what it was before it wrapped has no room in 64."""
+    VIOLATION_BEYOND: ClassVar[int] = 62
+    """A bit: not even in 65; the value is the nearest number that has."""
+    VIOLATION_SIGN: ClassVar[int] = 63
+    """A bit: the 65th, the sign."""
 
     model: Model
     areas: dict[str, int] = field(default_factory=dict)

@@ -194,17 +194,20 @@ class Limit:
     low: int
     high: int
     site: int
+    bound: "Place | None" = None
+    """What is checked by the name of an in-out, or through a reference: an entry says which variable it was."""
 
 
 @dataclass(frozen=True, slots=True)
 class Violates:
-    """BOOL: whether the value is outside of low..high; recorded at `site` when it is, unless `site` is 0."""
+    """BOOL: whether the value is outside of low..high; recorded at `site` when it is, unless `site` is 0. `bound` as in `Limit`."""
 
     type: Elementary
     value: "Expr"
     low: int
     high: int
     site: int
+    bound: "Place | None" = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Elementary:
-    """A type with a value of 1, 2, 4 or 8 bytes."""
+    """A type with a value of 1, 2, 4 or 8 bytes; 16 for those of `wide_types`."""
 
     name: str
     kind: Kind
@@ -50,7 +50,7 @@ class Elementary:
 
     @property
     def align(self) -> int:
-        return self.size
+        return min(self.size, 8)
 
     @property
     def bits(self) -> int:

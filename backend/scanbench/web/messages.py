@@ -1,5 +1,4 @@
-"""What goes over the wire: every JSON shape of the REST API and of the WebSocket, here and in `messages_errors.py`.
-The browser's types (`frontend/src/wire/messages.gen.ts`) are generated from them; `frames.py` describes binary frames."""
+"""Every JSON shape of REST and of the WebSocket, of which `messages.gen.ts` of the page is made; `frames.py` has binary frames."""
 
 from typing import Annotated, Literal
 
@@ -282,7 +281,9 @@ class Violation(Wire):
     pou: str
     instance: str = Field(description="path of the instance that ran; empty in a FUNCTION")
     variable: str
+    target: str = Field(description="the variable, where `variable` is that of an in-out or reference; else empty")
     value: str
+    beyond: bool = Field(description="the value was farther outside than 65 bits can say")
     low: str
     high: str
     text: str

@@ -175,9 +175,9 @@ def _violation(found: Violation) -> wire.Violation:
     span = found.span
     return wire.Violation(
         file=span.file, line=span.line, column=span.column, end_line=span.end_line, end_column=span.end_column,
-        pou=found.pou, instance=found.instance, variable=found.variable, value=str(found.value), low=str(found.low),
+        pou=found.pou, instance=found.instance, variable=found.variable, target=found.target, value=str(found.value), low=str(found.low),
         high=str(found.high), text=str(found), times=found.times, first_scan=found.first_scan,
-        last_scan=found.last_scan,
+        last_scan=found.last_scan, beyond=found.beyond,
     )  # fmt: skip
 
 

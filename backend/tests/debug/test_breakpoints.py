@@ -236,6 +236,29 @@ def test_a_violation_halts_after_the_statement(make: MakeDebug, tmp_path: Path) 
     assert value(walker.timeline.resource, "Main.a.total") == 103
 
 
+LENT = """\
+FUNCTION_BLOCK Pump
+VAR_IN_OUT level : INT (0..100); END_VAR
+level := level + 60;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR tanks : ARRAY[1..2] OF INT (0..100); p : Pump; END_VAR
+p(level := tanks[1]);
+p(level := tanks[2]);
+END_PROGRAM"""
+
+
+def test_a_violation_by_the_name_of_an_in_out_says_whose_variable_it_is(make: MakeDebug, tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run", LENT, make)
+    walker.set(Breakpoint(1, "violation", "Ann"))
+    for tank in (1, 2):
+        walker.run() if tank == 1 else walker.step("continue")
+        left = walker.halt.left
+        assert left is not None
+        assert (left.variable, left.target, left.instance, left.value) == ("level", f"Main.tanks[{tank}]", "Main.p", 120)
+        assert walker.halt.text == f"Main.tanks[{tank}] (here level) was 120, outside of 0..100, at main.st:3 in Main.p"
+
+
 def test_at_a_scan(walker: Walker) -> None:
     walker.set(Breakpoint(1, "scan", "Ann", scan=42))
     walker.run()

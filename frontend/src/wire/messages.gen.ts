@@ -10488,6 +10488,11 @@ export interface components {
          * @description A place and instance at which a value left its subrange.
          */
         Violation: {
+            /**
+             * Beyond
+             * @description the value was farther outside than 65 bits can say
+             */
+            beyond: boolean;
             /** Column */
             column: number;
             /** End Column */
@@ -10513,6 +10518,11 @@ export interface components {
             low: string;
             /** Pou */
             pou: string;
+            /**
+             * Target
+             * @description the variable, where `variable` is that of an in-out or reference; else empty
+             */
+            target: string;
             /** Text */
             text: string;
             /** Times */

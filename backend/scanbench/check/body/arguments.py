@@ -10,7 +10,7 @@ from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.receivers import is_variable
-from scanbench.check.body.subrange_checks import has_subranges, holding, keeping, noting, with_note
+from scanbench.check.body.subrange_checks import arriving, has_subranges, keeping, noting, with_note
 from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Borrowed, Rejected
@@ -209,7 +209,7 @@ def _bind(
         taken = body.temporary(plain, value.span)
         bound.places[key] = taken
         whole = _generic(member, Load(taken), target.type)
-        given = holding(body, output_value(body, whole, target.type, argument), target, argument.span)
+        given = arriving(body, output_value(body, whole, target.type, argument), target, argument.span)
         stored = keeping(body, given, noting(body, target, variable), argument.span)
         bound.after.append(Assign(target, stored, argument.span))
 

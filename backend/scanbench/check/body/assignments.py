@@ -12,7 +12,7 @@ from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
-from scanbench.check.body.subrange_checks import holding, keeping, noting
+from scanbench.check.body.subrange_checks import arriving, keeping, noting
 from scanbench.check.body.subrange_copies import landed
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
@@ -75,7 +75,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     note = noting(body, target, member)
     if isinstance(target.type, ArrayType | Record):
         return _copy(body, node, target, note, what)
-    value = holding(body, as_type(body, node.value, target.type, what), target, node.span)
+    value = arriving(body, as_type(body, node.value, target.type, what), target, node.span)
     return Assign(target, keeping(body, value, note, node.span), node.span)
 
 

@@ -12,7 +12,7 @@ from scanbench.check.body.enabling import condition_of, enabling, given_enable, 
 from scanbench.check.body.notes import note_of
 from scanbench.check.body.objects import named_itself, own
 from scanbench.check.body.receivers import Receiver, is_own_property, receiver_of
-from scanbench.check.body.subrange_checks import explicitly, holding, keeping, noting
+from scanbench.check.body.subrange_checks import arriving, explicitly, holding, keeping, noting
 from scanbench.check.body.targets import declared_target
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
@@ -122,7 +122,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
         if formal.section is Section.INPUT:
             value = as_argument(body, argument.value, formal.type, f"`{formal.name}`")
             inside = None if formal.located else _inside(instance, record, formal)
-            value = holding(body, value, own, argument.span, inside)
+            value = arriving(body, value, own, argument.span, inside)
             inputs += _noted_input(body, own, value, formal, argument.span)
             continue
         target, member = declared_target(body, argument.value)
@@ -131,7 +131,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
             taken = body.temporary(base_of(target.type), argument.span)
             outputs.append((output_value(body, Load(own), taken.type, argument), taken))
             value = coerce(body, Load(taken), target.type, argument.span, f"`{shown(argument.value)}`")
-            value = holding(body, value, target, argument.span)
+            value = arriving(body, value, target, argument.span)
             after.append(Assign(target, keeping(body, value, note, argument.span), argument.span))
             continue
         value = output_value(body, Load(own), target.type, argument)

@@ -28,6 +28,14 @@ Call: TypeAlias = "Callable[[Body, tree.Call, Type | None], Expr]"
 Property: TypeAlias = "Callable[[Body, tree.Expression], Expr | None]"
 
 
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """The number that a value was before it wrapped into the variable that holds it, and the bounds of that number."""
+
+    place: Place
+    reach: tuple[int, int]
+
+
 class Lookup(Protocol):
     """How names are understood. Every method but those that return None reports and raises `Rejected` where it finds nothing."""
 
@@ -116,6 +124,8 @@ class Body:
     """Whether what is called is an action that a step of a chart names."""
     wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)
     """By identity, values that were cut to their type, and what they were cut from; see `wide.py`."""
+    truths: dict[int, Truth] = field(default_factory=dict)
+    """By offset in the frame, what the current results of IL were before they wrapped; see `true_values.py`."""
 
     @property
     def dialect(self) -> Dialect:

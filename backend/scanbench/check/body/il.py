@@ -12,6 +12,7 @@ from scanbench.check.body.coercion import as_type
 from scanbench.check.body.context import Body
 from scanbench.check.body.forms import FORMS
 from scanbench.check.body.il_flow import BROKEN, NOTHING, Current, Flow, Label
+from scanbench.check.body.il_goals import Goal, goals, remembered
 from scanbench.check.body.il_operands import BINARY, callee, hidden, literal, negated, shown, type_of, wanted_by
 from scanbench.check.context import Rejected
 from scanbench.check.standard.functions import FUNCTIONS
@@ -58,7 +59,10 @@ class InstructionList:
         self._dead = False
         self._wanted: Type | None = None
         """What the next instruction works on: a function of literals alone gives that type."""
+        self._goal: Goal | None = None
+        """The variable with a subrange that the result of the instruction is on its way to."""
         self._find_wanted()
+        self._goals = goals(body, written)
 
     def statements(self) -> tuple[Stmt, ...]:
         """The statements of the body; with labels, one `Blocks`."""
@@ -113,14 +117,18 @@ class InstructionList:
             self._report.undo(mark)
             return
         register = self._register(label.wanted, span)
-        self._emit(Assign(self._body.place(register)[0], value, span))
+        place, _ = self._body.place(register)
+        self._body.truths.pop(place.offset, None)
+        self._emit(Assign(place, value, span))
         self._current = Current(register, label.wanted)
 
     def _round(self) -> None:
         self._flow.start()
         self._blocks, self._open, self._current, self._dead = [[]], [], NOTHING, False
+        self._body.truths.clear()
         following = self._following()
-        for node, after in zip(self._written.instructions, following, strict=True):
+        for node, after, goal in zip(self._written.instructions, following, self._goals, strict=True):
+            self._goal = goal
             if node.label is not None:
                 self._label(node.label, node.span)
             if not node.operator:
@@ -162,6 +170,7 @@ class InstructionList:
             self._open.clear()
             self._current = BROKEN
         self._literal_for(name)
+        self._body.truths.clear()
         self._blocks.append([])
         joined = self._flow.enter(name, self._current)
         self._dead = self._dead and not self._flow.falls
@@ -192,7 +201,7 @@ class InstructionList:
             raise self._report.reject("T002", f"This is {what}; a value is needed here.", span)
         name = self._register(settled.type, span)
         place, _ = self._body.place(name)
-        self._emit(Assign(place, settled, span))
+        self._emit(Assign(place, remembered(self._body, settled, place, self._goal), span))
         kept = literal(node, value)
         self._current = Current(name if kept is None else kept, settled.type)
 

@@ -16,7 +16,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.spelled_out import spelled_out
-from scanbench.check.body.subrange_checks import holding, into
+from scanbench.check.body.subrange_checks import arriving, into
 from scanbench.check.body.text_cases import TEXT_CASE, as_comparisons, is_text
 from scanbench.check.body.unreached import never_chosen, unreached
 from scanbench.check.body.variants import variant_copy, with_type_labels
@@ -222,7 +222,7 @@ def _for(body: Body, node: tree.ForStatement) -> Stmt:
             raise body.report.reject("T008", "This variable counts a loop around already.", node.variable.span)
     base = base_of(type)
     start = as_type(body, node.start, type, "The start value" if type is base else f"`{shown(node.variable)}`")
-    start = holding(body, start, counter, node.start.span)
+    start = arriving(body, start, counter, node.start.span)
     end = as_type(body, node.end, base, "The end value")
     step = Const(base, 1) if node.step is None else _downward(body, node.step, base) or _step(body, node.step, base)
     if isinstance(type, Subrange):

@@ -12,10 +12,12 @@ from scanbench.check.body import fold
 from scanbench.check.body.context import Body
 from scanbench.check.body.harmless import again, again_at, limited
 from scanbench.check.body.notes import note_of
-from scanbench.check.body.true_values import elementary, true_value, value_range, wrapped_valid, written
+from scanbench.check.body.true_values import Way, elementary, value_range, wrapped_valid, written
+from scanbench.check.declare.scopes import place_of
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
+    Base,
     CallFunction,
     Compare,
     Const,
@@ -40,6 +42,7 @@ from scanbench.program.types import (
     Record,
     Subrange,
     Type,
+    actual_of,
     base_of,
     has_instance,
 )
@@ -78,13 +81,13 @@ def into(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> E
         value = expr.value
         if isinstance(value, int) and not type.low <= value <= type.high:
             raise body.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
-    wide = None if policy_of(body, type) == "off" else true_value(body, expr, type)
-    return limit(body, wide or expr, type, span, variable)
+    true = Way(body, span, variable, policy_of(body, type)).true(expr, base_of(type))
+    return limit(body, true, type, span, variable)
 
 
 def limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
     """The value as its policy wants it, of the base type; that is `expr` itself where it needs no check. `expr` may be of a
-    wider type (`true_value`)."""
+    wider type (`Way.true`)."""
     if body.pou is None:
         return expr  # among declarations everything is constant
     base, policy = base_of(type), policy_of(body, type)
@@ -96,10 +99,11 @@ def limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> 
     number = body.report.check(site)
     if site.needless:
         return Load(replace(expr.place, type=base)) if isinstance(expr, Load) else expr
+    bound = bound_of(body, expr.place) if isinstance(expr, Load) else None
     if policy in LIMITED:
-        return Limit(base, expr, type.low, type.high, number)
+        return Limit(base, expr, type.low, type.high, number, bound)
     kept = body.temporary(elementary(expr), span)
-    outside = Violates(BOOL, Load(kept), type.low, type.high, number)
+    outside = Violates(BOOL, Load(kept), type.low, type.high, number, bound)
     if policy == "report":
         then: Stmt = Assign(body.temporary(BOOL, span), outside, span)
     else:
@@ -124,6 +128,54 @@ def policy_of(body: Body, type: Subrange) -> str:
     return type.policy or body.scope.policy or "limit"
 
 
+def bound_of(body: Body, place: Place) -> Place | None:
+    """What is known by a name of this POU, but is a variable of somebody else: that of an in-out, or what a reference refers to. None
+    for a variable of its own."""
+    if (place.slot is not None or place.reference is not None) and not _own(body, place):
+        return _unchecked(place)
+    record = body.scope.instance
+    if place.base is not Base.SELF or not isinstance(record, Record):
+        return None
+    for member in record.members.values():
+        if member.copied and member.offset <= place.offset < member.offset + member.type.size:
+            actual = place_of(actual_of(record, member), Base.SELF, record, 0)
+            return _unchecked(
+                replace(actual, type=place.type, offset=place.offset - member.offset, indices=place.indices)
+            )
+    return None
+
+
+def _own(body: Body, place: Place) -> bool:
+    """Whether it is a variable of the instance that this method belongs to."""
+    slot, frame = place.slot, body.scope.frame
+    this = None if frame is None else frame.members.get("THIS")
+    if slot is None or this is None or slot.slot is not None or slot.reference is not None:
+        return False
+    return slot.base is Base.FRAME and slot.offset == this.offset
+
+
+def _unchecked(place: Place) -> Place | None:
+    same = again_at(place)
+    return None if same is None else replace(same, null_trap=0)
+
+
+def arriving(body: Body, value: Expr, place: Place, span: Span, last: Place | None = None) -> Expr:
+    """A checked value on its way into a variable: what is recorded says which variable that is, and it may hold its last value."""
+    bound = bound_of(body, last or place) if isinstance(place.type, Subrange) else None
+    return holding(body, value if bound is None else _bound_to(value, bound), place, span, last)
+
+
+def _bound_to(value: Expr, bound: Place) -> Expr:
+    match value:
+        case Limit() | Violates():
+            return replace(value, bound=bound)
+        case Sequence((Assign() as kept, Assign(value=Violates() as outside) as told), result):
+            return Sequence((kept, replace(told, value=replace(outside, bound=bound))), result)
+        case Sequence((Assign() as kept, If(((Violates() as outside, stops),)) as told), result):
+            return Sequence((kept, replace(told, branches=((replace(outside, bound=bound), stops),))), result)
+    return value
+
+
 def holding(body: Body, value: Expr, place: Place, span: Span, last: Place | None = None) -> Expr:
     """A value on its way into a variable that holds its last value where the new one is outside; `last` is where that is read, if not
     at `place`. Where the index of an element calls a function, the new one is limited instead."""
@@ -135,7 +187,7 @@ def holding(body: Body, value: Expr, place: Place, span: Span, last: Place | Non
         return value
     base = base_of(type)
     kept = body.temporary(elementary(value.value), span)
-    outside = Violates(BOOL, Load(kept), value.low, value.high, value.site)
+    outside = Violates(BOOL, Load(kept), value.low, value.high, value.site, value.bound)
     chosen = (outside, fold.convert(base, Load(kept)), Load(replace(same, type=base)))
     return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, chosen))
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from scanbench.check.body.context import Body
 from scanbench.check.body.harmless import again_at
-from scanbench.check.body.subrange_checks import has_subranges, holding, limit
+from scanbench.check.body.subrange_checks import arriving, has_subranges, limit
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, For, Index, Load, Place, Sequence, Stmt
 from scanbench.program.sites import TrapKind
@@ -33,7 +33,7 @@ def _checks(body: Body, place: Place, last: Place | None, span: Span, what: str)
             plain = Load(replace(place, type=base_of(type)))
             value = limit(body, plain, type, span, what)
             if last is not None:
-                value = holding(body, value, place, span, last)
+                value = arriving(body, value, place, span, last)
             if value != plain:
                 yield Assign(place, value, span)
         case ArrayType() as type if has_subranges(type):

@@ -230,7 +230,11 @@ class Violation(TypedDict):
     instance: str
     """path of the instance that ran; empty in a FUNCTION."""
     variable: str
+    target: str
+    """the variable, where `variable` is that of an in-out or reference; else empty."""
     value: str
+    beyond: bool
+    """the value was farther outside than 65 bits can say."""
     low: str
     high: str
     text: str

@@ -10,7 +10,7 @@ from scanbench.engines.interpreter.intrinsics import intrinsic
 from scanbench.engines.interpreter.memory import Put, Value, decode, putter
 from scanbench.engines.interpreter.observer import ReferenceObserver
 from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
-from scanbench.engines.interpreter.violations import Record
+from scanbench.engines.interpreter.violations import Record, in_65_bits
 from scanbench.program.layout import Layout
 from scanbench.program.origin import is_system
 from scanbench.program.program import (
@@ -34,6 +34,7 @@ from scanbench.program.program import (
 )
 from scanbench.program.program import Sequence as SequenceNode
 from scanbench.program.types import Elementary, Kind, Section, StringType
+from scanbench.program.wide_types import WIDE
 
 Body = Callable[[int], int]
 """Runs statements on an instance; the result says how they ended, see `statements`."""
@@ -66,7 +67,8 @@ class Expressions(ABC):
         self.memory = bodies.memory
         found = bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap
         observer = None if is_system(pou.span) else bodies.observer
-        self.places = Places(*found) if observer is None else observer.places(*found)
+        self._unseen = Places(*found)
+        self.places = self._unseen if observer is None else observer.places(*found)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:
@@ -161,7 +163,7 @@ class Expressions(ABC):
     # ---- subrange checks --------------------------------------------------------------------------------------
 
     def _limit(self, node: Limit) -> Read:
-        value, low, high, record = self._number(node.value), node.low, node.high, self._recorder(node.site)
+        value, low, high, record = self._number(node.value), node.low, node.high, self._recorder(node)
 
         def limit(instance: int) -> Value:
             number = value(instance)
@@ -176,7 +178,7 @@ class Expressions(ABC):
         value, low, high = self._number(node.value), node.low, node.high
         if node.site == 0:
             return lambda instance: not low <= value(instance) <= high
-        record = self._recorder(node.site)
+        record = self._recorder(node)
 
         def violates(instance: int) -> Value:
             number = value(instance)
@@ -187,15 +189,25 @@ class Expressions(ABC):
 
         return violates
 
-    def _recorder(self, number: int) -> Callable[[int, int], None]:
-        record, caller, site = self.bodies.record, self.caller, self.pou.first_check + number
-        this = self.pou.this
-        if this is not None:  # its slot holds the instance of the method
-            memory, at = self.memory, self.pou.frame_offset + this.offset
-            return lambda instance, value: record(site, int.from_bytes(memory[at : at + 4], "little"), value)
-        if caller is None:
-            return lambda instance, value: record(site, instance, value)
-        return lambda instance, value: record(site, caller[0], value)
+    def _recorder(self, node: Limit | Violates) -> Callable[[int, int], None]:
+        record, caller, site = self.bodies.record, self.caller, self.pou.first_check + node.site
+        this, type = self.pou.this, node.value.type
+        wide, signed = type.size == WIDE.size, type.kind is Kind.INT  # type: ignore[union-attr]
+        bound = None if node.bound is None else self._unseen.reference(node.bound)
+        copies = self.bodies.program.layout.copies
+        memory, at = self.memory, self.pou.frame_offset + (0 if this is None else this.offset)
+
+        def record_it(instance: int, value: int) -> None:
+            value, more = in_65_bits(value, signed) if wide else (value, 0)
+            if bound is not None:
+                more |= copies.source(memory, bound(instance) & Layout.VIOLATION_BOUND)
+            if this is not None:  # its slot holds the instance of the method
+                instance = int.from_bytes(memory[at : at + 4], "little")
+            elif caller is not None:
+                instance = caller[0]
+            record(site, instance, value, more)
+
+        return record_it
 
     # ---- running code ------------------------------------------------------------------------------------------
 

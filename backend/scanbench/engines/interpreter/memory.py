@@ -8,6 +8,7 @@ import struct
 from collections.abc import Callable
 
 from scanbench.program.types import Elementary, Kind, StringType, Type
+from scanbench.program.wide_types import WIDE
 
 Value = int | float | str | bytes
 Get = Callable[[int], Value]
@@ -51,6 +52,9 @@ def getter(memory: bytearray, type: Type) -> Get:
         return lambda at: memory[at] & 1
     if size == 1 and not type.signed:
         return memory.__getitem__
+    if size == WIDE.size:
+        signed = type.signed
+        return lambda at: int.from_bytes(memory[at : at + size], "little", signed=signed)
     unpack = packing(type).unpack_from
     return lambda at: unpack(memory, at)[0]
 
@@ -68,6 +72,8 @@ def putter(memory: bytearray, type: Type) -> Put:
         return put_bytes
     if type.size == 1 and not type.signed:
         return memory.__setitem__  # type: ignore[return-value]
+    if type.size == WIDE.size:
+        return _wide_putter(memory, type)
     pack = packing(type).pack_into
     if type.kind is not Kind.REAL:
         return lambda at, value: pack(memory, at, value)
@@ -80,6 +86,16 @@ def putter(memory: bytearray, type: Type) -> Put:
             pack(memory, at, value)
 
     return put_real
+
+
+def _wide_putter(memory: bytearray, type: Elementary) -> Put:
+    signed = type.signed
+
+    def put(at: int, value: Value) -> None:
+        assert isinstance(value, int)
+        memory[at : at + WIDE.size] = value.to_bytes(WIDE.size, "little", signed=signed)
+
+    return put
 
 
 def _string_getter(memory: bytearray, type: StringType) -> Get:

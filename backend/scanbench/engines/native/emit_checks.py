@@ -4,10 +4,10 @@ from scanbench.engines.native import emit_deferred
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_operators import convert, intrinsic
-from scanbench.engines.native.emit_places import address
+from scanbench.engines.native.emit_places import address, reference
 from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
-from scanbench.program.copies import BYTE_OFFSET
+from scanbench.program.copies import BYTE_OFFSET, DEEPEST
 from scanbench.program.layout import Layout
 from scanbench.program.program import Base, Limit, Place, Violates
 from scanbench.program.types import ULINT, Elementary
@@ -15,14 +15,17 @@ from scanbench.program.types import ULINT, Elementary
 LIST = "@violations"
 """The name of the number that holds the offset of the list in the image."""
 
+COPIES = "@copies"
+"""How many in-outs by value there are, and of each where its own variable begins and ends and where its slot is: `Copies`."""
+
 LIST_TAG = "#violations"
 """Of the call that records: no variable of the program is touched by it, but those in the header, which have no tag."""
 
 RECORD = """\
 declare i32 @llvm.uadd.sat.i32(i32, i32)
 declare i32 @llvm.umin.i32(i32, i32)
-define internal void @violation(ptr nonnull %img, i64 %list, i32 %site, i64 %instance, i64 %value) noinline cold #0 {{
-; finds the entry of the site and instance, or appends one; all counters saturate
+define internal void @violation(ptr nonnull %img, i64 %list, i32 %site, i64 %instance, i64 %value, i64 %more) noinline cold #0 {{
+; finds the entry of the site, instance and variable, or appends one; all counters saturate
 entry:
   %errorat = getelementptr inbounds i8, ptr %img, i64 {error}
   store i8 1, ptr %errorat, align 1
@@ -44,14 +47,20 @@ next:
   %at = getelementptr inbounds i8, ptr %head, i64 %payload
   %timesat = getelementptr inbounds i8, ptr %at, i64 4
   %instanceat = getelementptr inbounds i8, ptr %at, i64 8
-  %more = icmp ult i64 %i, %n
-  br i1 %more, label %look, label %new
+  %moreat = getelementptr inbounds i8, ptr %at, i64 40
+  %left = icmp ult i64 %i, %n
+  br i1 %left, label %look, label %new
 look:
   %itssite = load i32, ptr %at, align 4
   %itsinstance = load i64, ptr %instanceat, align 8
   %samesite = icmp eq i32 %itssite, %site
   %sameinstance = icmp eq i64 %itsinstance, %instance
-  %same = and i1 %samesite, %sameinstance
+  %itsmore = load i64, ptr %moreat, align 8
+  %differs = xor i64 %itsmore, %more
+  %bound = and i64 %differs, {bound}
+  %samebound = icmp eq i64 %bound, 0
+  %sameplace = and i1 %sameinstance, %samebound
+  %same = and i1 %samesite, %sameplace
   br i1 %same, label %again, label %other
 other:
   %after = add i64 %i, 1
@@ -74,8 +83,6 @@ append:
   store i64 %instance, ptr %instanceat, align 8
   %firstat = getelementptr inbounds i8, ptr %at, i64 24
   store i64 %scan, ptr %firstat, align 8
-  %reservedat = getelementptr inbounds i8, ptr %at, i64 40
-  store i64 0, ptr %reservedat, align 8
   br label %again
 again:
   %times = load i32, ptr %timesat, align 4
@@ -83,9 +90,57 @@ again:
   store i32 %oncemore, ptr %timesat, align 4
   %valueat = getelementptr inbounds i8, ptr %at, i64 16
   store i64 %value, ptr %valueat, align 8
+  store i64 %more, ptr %moreat, align 8
   %lastat = getelementptr inbounds i8, ptr %at, i64 32
   store i64 %scan, ptr %lastat, align 8
   ret void
+}}"""
+
+
+ACTUAL = """\
+define internal i64 @violation.actual(ptr nonnull %img, i64 %first) noinline cold #0 {{
+; the byte that this one is a copy of in the end
+entry:
+  %n = load i64, ptr {copies}, align 8
+  br label %deeper
+deeper:
+  %at = phi i64 [ %first, %entry ], [ %moved, %go ]
+  %deep = phi i64 [ 0, %entry ], [ %deeper.1, %go ]
+  %deeper.1 = add i64 %deep, 1
+  %ends = icmp uge i64 %deep, {deepest}
+  br i1 %ends, label %done, label %next
+next:
+  %i = phi i64 [ 0, %deeper ], [ %after, %other ]
+  %left = icmp ult i64 %i, %n
+  br i1 %left, label %look, label %done
+look:
+  %row = mul i64 %i, 24
+  %startat = getelementptr inbounds i8, ptr getelementptr (i8, ptr {copies}, i64 8), i64 %row
+  %start = load i64, ptr %startat, align 8
+  %endat = getelementptr inbounds i8, ptr %startat, i64 8
+  %end = load i64, ptr %endat, align 8
+  %distance = sub i64 %at, %start
+  %length = sub i64 %end, %start
+  %inside = icmp ult i64 %distance, %length
+  br i1 %inside, label %found, label %other
+other:
+  %after = add i64 %i, 1
+  br label %next
+found:
+  %slotat = getelementptr inbounds i8, ptr %startat, i64 16
+  %slot = load i64, ptr %slotat, align 8
+  %refat = getelementptr inbounds i8, ptr %img, i64 %slot
+  %ref = load i64, ptr %refat, align 8
+  %target = and i64 %ref, 4294967295
+  %moved = add i64 %target, %distance
+  %bound = icmp ne i64 %target, 0
+  %plain = icmp ult i64 %ref, 34359738368
+  %goes = and i1 %bound, %plain
+  br i1 %goes, label %go, label %done
+go:
+  br label %deeper
+done:
+  ret i64 %at
 }}"""
 
 
@@ -111,11 +166,12 @@ def _limited(body: Body, expr: Limit, type: Elementary) -> Value:
     before, beyond, on = text.block, text.name("beyond"), text.name("on")
     text.choose(outside, beyond, on, UNLIKELY)
     text.begin(beyond)
-    _record(body, value, type, expr.site)
+    _record(body, value, type, expr)
     brought = within_bounds(body, value, type, (expr.low, expr.high))
+    recorded = text.block
     text.go(on)
     text.begin(on)
-    ssa = text.op(f"phi {name} [ {value.ssa}, %{before} ], [ {brought.ssa}, %{beyond} ]")
+    ssa = text.op(f"phi {name} [ {value.ssa}, %{before} ], [ {brought.ssa}, %{recorded} ]")
     return Value(ssa, brought.low, brought.high)
 
 
@@ -130,7 +186,7 @@ def violates(body: Body, expr: Violates) -> Value:
         text, beyond, on = body.text, body.text.name("beyond"), body.text.name("on")
         text.choose(outside, beyond, on, UNLIKELY)
         text.begin(beyond)
-        _record(body, value, type, expr.site)
+        _record(body, value, type, expr)
         text.go(on)
         text.begin(on)
     return Value(outside, 0, 1)
@@ -160,26 +216,44 @@ def _distance(body: Body, value: Value, type: Elementary, low: int) -> str:
     return body.text.op(f"sub {value_type(type)} {value.ssa}, {integer(low, type)}") if low else value.ssa
 
 
-def _record(body: Body, value: Value, type: Elementary, site: int) -> None:
+def _record(body: Body, value: Value, type: Elementary, check: Limit | Violates) -> None:
     record = RECORD.format(
         error=Layout.SUBRANGE_ERROR,
         count=Layout.SUBRANGE_COUNT,
         scan=Layout.SCAN,
         limit=Layout.VIOLATION_LIMIT,
         bytes=Layout.VIOLATION_BYTES,
+        bound=Layout.VIOLATION_BOUND,
     )
     body.module.declare("@violation", record)
-    wide = value.ssa
-    if type.bits < 64:
-        how = "sext" if type.signed else "zext"
-        wide = body.text.op(f"{how} {value_type(type)} {value.ssa} to i64")
-    number = str(site)
+    number = str(check.site)
     if body.unit.has(body.pou):
         first = body.text.op(f"load i32, ptr {body.unit.symbol(body.pou).replace('p.', 'check.', 1)}, align 4")
-        number = body.text.op(f"add i32 {first}, {site}")
+        number = body.text.op(f"add i32 {first}, {check.site}")
     violations = body.text.op(f"load i64, ptr {LIST}, align 8")
-    given = f"ptr {body.image}, i64 {violations}, i32 {number}, i64 {_instance(body)}, i64 {wide}"
-    body.text.do(f"call void @violation({given}){body.module.tag(LIST_TAG)}")
+    wide, more = _in_64_bits(body, value, type)
+    if check.bound is not None:
+        body.module.declare("@violation.actual", ACTUAL.format(copies=COPIES, deepest=DEEPEST))
+        first = body.text.op(f"and i64 {reference(body, check.bound)}, {Layout.VIOLATION_BOUND}")
+        actual = f"call i64 @violation.actual(ptr {body.image}, i64 {first})"
+        more = body.text.op(f"or i64 {body.text.op(actual)}, {more}")
+    given = f"i64 {violations}, i32 {number}, i64 {_instance(body)}, i64 {wide}, i64 {more}"
+    body.text.do(f"call void @violation(ptr {body.image}, {given}){body.module.tag(LIST_TAG)}")
+
+
+def _in_64_bits(body: Body, value: Value, type: Elementary) -> tuple[str, str]:
+    """The number as an entry keeps it, and what the entry says of it."""
+    text, name = body.text, value_type(type)
+    if type.bits <= 64:
+        how = "sext" if type.signed else "zext"
+        return (value.ssa if type.bits == 64 else text.op(f"{how} {name} {value.ssa} to i64")), "0"
+    near = within_bounds(body, value, type, (-(1 << 64) if type.signed else 0, (1 << 64) - 1)).ssa
+    beyond = text.op(f"zext i1 {text.op(f'icmp ne {name} {near}, {value.ssa}')} to i64")
+    upper = text.op(f"lshr {name} {near}, 64")
+    sign = text.op(f"shl i64 {text.op(f'trunc {name} {upper} to i64')}, {Layout.VIOLATION_SIGN}")
+    flags = text.op(f"or i64 {sign}, {text.op(f'shl i64 {beyond}, {Layout.VIOLATION_BEYOND}')}")
+    wide = text.op(f"or i64 {flags}, {1 << Layout.VIOLATION_WIDE}")
+    return text.op(f"trunc {name} {near} to i64"), wide
 
 
 def _instance(body: Body) -> str:

@@ -57,7 +57,7 @@ def binary(body: Body, op: str, type: Elementary, left: Value, right: Value, tra
 
 def _wide(body: Body, op: str, type: Elementary, left: Value, right: Value) -> str:
     """The result as an i64 too, where an operand came from a loop counter: so addresses are computed in 64 bits."""
-    if type.bits == 64 or not (left.wide or right.wide):
+    if type.bits >= 64 or not (left.wide or right.wide):
         return ""
     if not all(each.wide or each.low == each.high for each in (left, right)):
         return ""

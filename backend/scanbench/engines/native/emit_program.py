@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
-from scanbench.engines.native.emit_checks import LIST
+from scanbench.engines.native.emit_checks import COPIES, LIST
 from scanbench.engines.native.emit_try import CODES
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature
@@ -100,6 +100,7 @@ class Emitter:
             else:
                 unit.module.add(f"declare {emit_pou.head(unit, each, self._size)}")
         unit.module.add(f"{LIST} = external constant i64")
+        unit.module.add(f"{COPIES} = external constant i64")
         return unit
 
     def _add_numbers(self, unit: Unit, linkage: str) -> None:
@@ -108,8 +109,15 @@ class Emitter:
             unit.module.add(f"{first_trap(name)} = {linkage}constant i32 {pou.first_trap}")
             unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
         unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
+        unit.module.add(f"{COPIES} = {linkage}constant {_copies(self._program)}, align 8")
         unit.module.define(CODES, f"{linkage}constant {_codes(self._program)}, align 2")
         self._flavour.declare(unit)
+
+
+def _copies(program: Program) -> str:
+    found = program.layout.copies.all
+    numbers = [len(found), *(number for each in found for number in (each.start, each.end, each.slot))]
+    return f"[{len(numbers)} x i64] [{', '.join(f'i64 {each}' for each in numbers)}]"
 
 
 def _codes(program: Program) -> str:

@@ -55,7 +55,7 @@ class _Seen:
     alarms: dict[int, tuple[bool, ...]] = field(default_factory=dict)
     errors: list[tuple[int, str]] = field(default_factory=list)
     """What the PLC or its program raised, and before which scan."""
-    violations: dict[tuple[int, str], Violation] = field(default_factory=dict)
+    violations: dict[tuple[int, str, str], Violation] = field(default_factory=dict)
     refused: dict[int, str] = field(default_factory=dict)
     """Of what is entered: the places in the list of it that were refused, and why."""
     held: dict[int, int] = field(default_factory=dict)
@@ -182,7 +182,7 @@ class Trials:
             if isinstance(entry.command, Generate) and entry.command.origin != "simulator":
                 seen.errors.append((entry.scan, entry.plan.message))
         for each in read_violations(resource.program, resource.memory).entries:
-            seen.violations[each.site, each.instance] = each
+            seen.violations[each.key] = each
         if resource.trap is not None:
             seen.trap = (
                 resource.trap.scan,

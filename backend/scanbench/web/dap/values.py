@@ -223,8 +223,8 @@ async def on_exception_info(plc: Debuggee, _args: shapes.ExceptionInfo) -> Body:
     left = halt.left
     if left is not None:
         info["details"] = {
-            "message": halt.text, "typeName": f"{left.low}..{left.high}", "evaluateName": left.variable,
+            "message": halt.text, "typeName": f"{left.low}..{left.high}", "evaluateName": left.target or left.variable,
             "stackTrace": "\n".join(left.calls), "variable": left.variable, "instance": left.instance,
-            "value": left.value, "low": left.low, "high": left.high, "place": left.place,
+            "target": left.target, "value": left.value, "low": left.low, "high": left.high, "place": left.place,
         }  # fmt: skip
     return info

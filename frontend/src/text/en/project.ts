@@ -115,6 +115,8 @@ export const project = {
   "dialect.rockwell": "Rockwell Logix",
   "dialect.siemens": "Siemens SCL",
   "dialect.twincat": "TwinCAT",
+  "diagnostics.beyond": "beyond {value}",
+  "diagnostics.bound": "{target} (here {variable})",
   "diagnostics.clear": "Clear",
   "diagnostics.clear.hint": "Clears the list for everybody and sets _SubrangeError to FALSE",
   "diagnostics.count": "{count} violations",

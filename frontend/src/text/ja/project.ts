@@ -116,6 +116,8 @@ export const project: Record<keyof typeof english, string> = {
   "dialect.rockwell": "Rockwell Logix",
   "dialect.siemens": "Siemens SCL",
   "dialect.twincat": "TwinCAT",
+  "diagnostics.beyond": "{value} を超える値",
+  "diagnostics.bound": "{target}（ここでは {variable}）",
   "diagnostics.clear": "消去",
   "diagnostics.clear.hint": "全員の一覧を空にし、_SubrangeError を FALSE にします",
   "diagnostics.count": "違反 {count} 件",

@@ -62,7 +62,7 @@ function List({ violations }: { violations: readonly Violation[] }) {
       <ul aria-label={t("diagnostics.list")}>
         {violations.map((violation) => (
           <li
-            key={`${violation.file}:${violation.line}:${violation.column}:${violation.variable}:${violation.instance}`}
+            key={`${violation.file}:${violation.line}:${violation.column}:${violation.variable}:${violation.instance}:${violation.target}`}
           >
             <Row violation={violation} />
           </li>
@@ -75,7 +75,9 @@ function List({ violations }: { violations: readonly Violation[] }) {
 /** The violation in the language of the page. */
 function inWords(violation: Violation): string {
   if (violation.variable === "EN_CHECK") return t("diagnostics.encheck");
-  const { variable, value, low, high } = violation;
+  const { target, low, high } = violation;
+  const variable = target ? t("diagnostics.bound", { target, variable: violation.variable }) : violation.variable;
+  const value = violation.beyond ? t("diagnostics.beyond", { value: violation.value }) : violation.value;
   return t("diagnostics.outside", { variable, value, low, high });
 }
 
