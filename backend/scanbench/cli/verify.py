@@ -178,7 +178,7 @@ def _verified(
     collected = Collected()
     stopped = _run(subject, collected, first, last)
     head = _head(subject, begun, collected, first, last, stopped, limit)
-    return collected.report(replace(head, unreached=unreached)), stopped
+    return collected.report(replace(head, not_reached=unreached)), stopped
 
 
 def _run(subject: Subject, collected: Collected, first: int, last: int) -> _Stopped | None:

@@ -200,6 +200,7 @@ def _told(kind: type[S], ref: int, batch: Sequence[ScanVerified], *, whole: bool
         tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
         tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
         max((each.used for each in batch), default=0), tuple(skipped), sum(each.idle for each in batch) if whole else 0,
+        sum(each.cut and not each.compared for each in batch) if whole else 0,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from scanbench.verify.contract import DEFAULT_LIMIT, Column, Mismatch, Row, ScanVerified, VerifyCoverage
+from scanbench.verify.verdict import Verdict, partly, verdict
 
 Source = Literal["live", "past", "trace"]
 CONTEXT = 2
@@ -53,19 +54,18 @@ class ReportHead:
     """What else a reader should know: how the trace was mapped, why it ended early."""
     full: int = 0
     """Scans of those skipped in which uses of variables found no room in the record."""
-    unreached: int = 0
+    not_reached: int = 0
     """Scans that were asked for and did not run, as a run-time error had ended the program."""
     sampled: bool = False
     """Of a log or a controller of which only some scans are known, so that those in between were not asked for."""
 
+    unfinished: bool = False
+    """It was ended before all that was asked for."""
+
     @property
     def partly(self) -> bool:
-        """Whether something of what was asked was not compared, or the verdict depends on values that nobody recorded. The first scan of a
-        controller log is taken over in any case."""
-        taken_over = bool(self.trace and self.stretches and self.stretches[0][0] == self.first)
-        ungiven = self.coverage is not None and bool(self.coverage.ungiven)
-        skipped = self.full if self.sampled else self.skipped - taken_over
-        return skipped > 0 or ungiven or self.unreached > 0
+        """See `verdict.partly`."""
+        return partly(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +84,11 @@ class Report:
     def idle(self) -> bool:
         """Whether the range did not run in any of the scans, so that nothing of it was compared."""
         return not self.columns and all(row.kind == "none" for row in self.rows)
+
+    @property
+    def verdict(self) -> Verdict:
+        """What it came to."""
+        return verdict(self.head, self.idle)
 
     def ordered(self) -> tuple[Column, ...]:
         """Outputs, then inputs, as in the table of the panel; each column once."""

@@ -66,7 +66,7 @@ class _Document:
             notes.append(self._word("ungiven_text"))
         if self._report.idle and not head.differing:
             notes.append(self._word("idle"))
-        elif head.compared and not head.skipped and not head.unreached:
+        elif head.compared and not head.skipped and not head.not_reached:
             notes.append(self._word("all_compared"))
         if head.forgotten:
             notes.append(self._word("forgotten", count=f"{head.forgotten:,}"))

@@ -24,6 +24,7 @@ def report_object(report: Report) -> dict[str, Json]:
         "format": FORMAT,
         **_head(report.head),
         "same": _same(report),
+        "verdict": report.verdict,
         "columns": [_column(each, report) for each in report.ordered()],
         "differences": [_difference(row, each, report.columns) for row, each in report.differences()],
         "rows": [_row(row, columns) for row in report.rows],
@@ -32,10 +33,7 @@ def report_object(report: Report) -> dict[str, Json]:
 
 def _same(report: Report) -> bool | None:
     """None: there is no verdict, as nothing was compared, or not all that was asked."""
-    head = report.head
-    if head.differing:
-        return False
-    return None if head.partly or not head.compared or report.idle else True
+    return {"differs": False, "same": True}.get(report.verdict)
 
 
 def _head(head: ReportHead) -> dict[str, Json]:
@@ -43,7 +41,7 @@ def _head(head: ReportHead) -> dict[str, Json]:
         "tool": head.tool, "project": head.project, "instance": head.instance, "model": head.model, "by": head.by,
         "when": head.when, "program_version": head.version, "range": head.title, "source": head.source,
         "trace": head.trace or None, "interval_ns": head.interval_ns, "first": head.first, "last": head.last,
-        "compared": head.compared, "skipped": head.skipped, "not_reached": head.unreached,
+        "compared": head.compared, "skipped": head.skipped, "not_reached": head.not_reached,
         "skipped_stretches": [[first, last] for first, last in head.stretches],
         "limit": head.limit, "differing_rows": head.differing, "rows_left_out": head.forgotten,
         "note": head.note or None, "coverage": _coverage(head.coverage),

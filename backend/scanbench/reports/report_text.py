@@ -106,14 +106,15 @@ def _output(group: str, output: Compared) -> Case:
 def summary(report: Report) -> str:
     """One sentence: what was compared, and what came of it."""
     head = report.head
-    same = "no difference in what was compared" if head.skipped or head.unreached else "no difference"
+    part = head.skipped or head.not_reached or head.unfinished
+    same = "no difference in what was compared" if part else "no difference"
     if head.coverage is not None and head.coverage.ungiven:
         same += f", if {count(len(head.coverage.ungiven), 'input')} without a column had the start value"
     came = f"{count(head.differing, 'row')} differ" if head.differing else same
     if not head.differing and (report.idle or not head.compared):
         came = "nothing was compared, as the range did not run in them" if report.idle else "nothing was compared"
     skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
-    unreached = f", {head.unreached:,} that were asked for did not run" if head.unreached else ""
+    unreached = f", {head.not_reached:,} that were asked for did not run" if head.not_reached else ""
     return (
         f"{head.project} on {head.model}, {head.title}: scans {head.first} to {head.last}, "
         f"{0 if report.idle else head.compared:,} compared{skipped}{unreached}: {came}"

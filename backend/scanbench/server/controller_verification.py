@@ -16,10 +16,10 @@ from scanbench.session.session import Session
 from scanbench.verify.contract import Memory
 from scanbench.verify.trace.growing import LONGEST, TIME, Sample, most_samples
 from scanbench.verify.trace.mapping import TraceMapping
-from scanbench.wire.events import VerifyPace, VerifyWish
 from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import BeginController, TakeSamples, VerifyBegun
+from scanbench.wire.verifying import VerifyPace, VerifyWish
 
 log = logging.getLogger(__name__)
 MOST_WAITING = 500
@@ -63,7 +63,7 @@ class ControllerVerification(Verification):
             f"Sampled every {self._interval_ms:,} ms, at most {most:,} times: scans in between run with the inputs of the sample before, "
             f"and what is shorter than that is not seen."
         )
-        self._change(last=None, note=" ".join(filter(None, (self.status.note, note))))
+        self._change(last=None, sampled=True, note=" ".join(filter(None, (self.status.note, note))))
         self._left = most - 1
         self._feeding = self._do(self._feed())
 

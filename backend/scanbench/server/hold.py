@@ -6,9 +6,9 @@ from contextlib import suppress
 from scanbench.session.session import Session
 from scanbench.verify.contract import Range
 from scanbench.wire.debugging import Step
-from scanbench.wire.events import VerifyPace
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
+from scanbench.wire.verifying import VerifyPace
 
 
 class Hold:

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.session.session import Session
-from scanbench.wire.events import Event, StateChanged, VerificationStatus
+from scanbench.wire.events import Event, StateChanged
 from scanbench.wire.refused import Refused
+from scanbench.wire.verifying import VerificationStatus
 
 MOST_AGAIN = 20_000
 """Scans that one that follows a PLC verifies again."""

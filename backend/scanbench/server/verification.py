@@ -17,7 +17,8 @@ from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
 from scanbench.verify.contract import AT_END, Memory
-from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
+from scanbench.verify.trace.mapping import TraceMapping
+from scanbench.wire.events import Event, StateChanged
 from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
@@ -30,6 +31,7 @@ from scanbench.wire.verification import (
     VerifyScans,
     VerifyStep,
 )
+from scanbench.wire.verifying import VerificationStatus, VerifyPace, VerifyWish
 
 log = logging.getLogger("scanbench")
 
@@ -73,8 +75,9 @@ class Verification:
         self.session, self.rows = session, Rows()
         source: Literal["live", "past", "trace"] = "live" if wanted.first is None else "past"
         self.status = VerificationStatus(
-            id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
-        )
+            id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else "",
+            sampled=trace is not None and TraceMapping.from_json(trace.mapping).gaps == "hold",
+        )  # fmt: skip
         self._trace, self._on_change = trace, on_change
         self.mapping = "" if trace is None else trace.mapping
         self._job = Job(cache, self._on_end)

@@ -28,9 +28,10 @@ from scanbench.store.store import Store
 from scanbench.verify.contract import Memory, Range
 from scanbench.verify.trace.mapping import TraceMapping
 from scanbench.wire.codec import LENGTH, BadMessage, pack, pack_body, unpack_kept
-from scanbench.wire.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
+from scanbench.wire.events import VerificationsChanged
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import KeptRows
+from scanbench.wire.verifying import VerificationStatus, VerifyPace, VerifyWish
 
 A = TypeVar("A")
 MOST = 10
@@ -363,7 +364,7 @@ def _head(status: VerificationStatus, project: str, instance: str, model: str, w
         status.first if status.scan is None else status.scan, status.compared, status.skipped, status.differing,
         f"Scanbench {__version__}", status.trace, status.interval_ns, status.forgotten, status.wanted.limit,
         status.stretches, status.coverage, " ".join(filter(None, (status.note, status.message))),
-        unreached=status.not_reached,
+        full=status.full, not_reached=status.not_reached, sampled=status.sampled, unfinished=status.unfinished,
     )  # fmt: skip
 
 

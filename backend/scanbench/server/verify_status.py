@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from scanbench.reports.report import stretched
-from scanbench.wire.events import VerificationStatus, VerifyWish
 from scanbench.wire.verification import ScansDone, ScansVerified, VerifyBegun
+from scanbench.wire.verifying import VerificationStatus, VerifyWish
 
 STRETCHES = 100
 Stretches = tuple[tuple[int, int], ...]
@@ -47,7 +47,7 @@ def verified(status: VerificationStatus, came: ScansVerified) -> VerificationSta
         skipped=status.skipped + sum(last - first + 1 for first, last in came.skipped),
         stretches=with_stretches(status.stretches, came.skipped),
         differing=status.differing + sum(row.first is not None for row in came.rows), used=max(status.used, came.used),
-        not_run=status.not_run + came.not_run,
+        not_run=status.not_run + came.not_run, full=status.full + came.full,
         coverage=(came.coverage if isinstance(came, ScansDone) else None) or status.coverage,
     )  # fmt: skip
 

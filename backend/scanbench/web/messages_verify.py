@@ -10,6 +10,7 @@ from pydantic import Field, StringConstraints
 from scanbench.verify.contract import Mismatch, VerifyCoverage
 from scanbench.verify.trace.propose import Guess
 from scanbench.verify.trace.table import TraceProblem
+from scanbench.verify.verdict import Verdict
 from scanbench.web.messages_base import Scan, Wire
 
 VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "failed"]
@@ -86,6 +87,9 @@ class VerificationInfo(Wire):
         default=0, description="scans of `compared` in which the range did not run: there was nothing of it to compare"
     )
     not_reached: int = Field(default=0, description="scans of the past that were wanted and did not run until now")
+    verdict: Verdict = Field(
+        description="until now; `same` only where all that was asked was compared, of a log all that it has (see `coverage`)"
+    )
     generation: int = Field(description="raised when rows that were already sent have changed")
 
 

@@ -10,7 +10,7 @@ from scanbench.verify import contract as verified
 from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
 from scanbench.web import messages_verify as wire
 from scanbench.wire import events
-from scanbench.wire.events import VerificationStatus, VerifyWish
+from scanbench.wire.verifying import VerificationStatus, VerifyWish
 
 
 def range_of(of: wire.VerifyRange) -> verified.Range:
@@ -39,6 +39,7 @@ def info(of: VerificationStatus) -> wire.VerificationInfo:
             "differing": of.differing, "first_difference": of.first_difference,
             "first_scan": of.first_scan, "rows": of.rows, "forgotten": of.forgotten, "used": of.used,
             "generation": of.generation, "coverage": of.coverage, "not_run": of.not_run, "not_reached": of.not_reached,
+            "verdict": of.verdict,
         }
     )  # fmt: skip
 

@@ -92,7 +92,7 @@ from scanbench.verify.contract import (
 from scanbench.verify.trace.growing import Sample
 from scanbench.wire import campaigns as campaign_protocol
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire import events, memory, opcua, symbols, variables
+from scanbench.wire import events, memory, opcua, symbols, variables, verifying
 from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
@@ -148,7 +148,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
         Comparison, WhatIfWanted, SetValue, Try, WhatIf, whatif_protocol.RunWhatIf, whatif_protocol.TryDone, whatif_protocol.WhatIfDone,
         CampaignWanted, Trial, campaign_protocol.RunCampaign, campaign_protocol.TrialDone, campaign_protocol.CampaignDone, campaign_protocol.CampaignCount, campaign_protocol.CampaignState,
-        verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
+        verify_protocol.RerunDone, verifying.VerificationStatus, verifying.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
         opcua.OpcUaStart, opcua.OpcUaProgram, opcua.RaisedError, opcua.OpcUaErrors, opcua.OpcUaFault, opcua.OpcUaReady, opcua.OpcUaFailed,
         opcua.OpcUaClient, opcua.OpcUaAsked, opcua.OpcUaSubmit, opcua.OpcUaDone,

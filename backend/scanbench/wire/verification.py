@@ -175,6 +175,8 @@ class ScansVerified:
     """Scans since the last message of which nothing was compared, as stretches, both ends included."""
     not_run: int = 0
     """Scans of `compared` in which the range did not run."""
+    full: int = 0
+    """Skipped scans in which uses found no room in the record."""
 
 
 @dataclass(frozen=True, slots=True)

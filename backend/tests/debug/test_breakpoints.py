@@ -255,7 +255,12 @@ def test_a_violation_by_the_name_of_an_in_out_says_whose_variable_it_is(make: Ma
         walker.run() if tank == 1 else walker.step("continue")
         left = walker.halt.left
         assert left is not None
-        assert (left.variable, left.target, left.instance, left.value) == ("level", f"Main.tanks[{tank}]", "Main.p", 120)
+        assert (left.variable, left.target, left.instance, left.value) == (
+            "level",
+            f"Main.tanks[{tank}]",
+            "Main.p",
+            120,
+        )
         assert walker.halt.text == f"Main.tanks[{tank}] (here level) was 120, outside of 0..100, at main.st:3 in Main.p"
 
 

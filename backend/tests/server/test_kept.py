@@ -19,9 +19,9 @@ from scanbench.store.tables import Sweep, WatchList
 from scanbench.verify.contract import Range
 from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
 from scanbench.wire.codec import pack, pack_body
-from scanbench.wire.events import VerificationStatus, VerifyWish
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import KeptRows, PackedRow
+from scanbench.wire.verifying import VerificationStatus, VerifyWish
 from tests.store.said import nobody
 from tests.wire.packed import packed_with
 

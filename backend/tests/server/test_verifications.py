@@ -13,9 +13,10 @@ from scanbench.server.verifications import Verifications
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.verify.contract import Range
-from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyWish
+from scanbench.wire.events import Event, StateChanged
 from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Refused
+from scanbench.wire.verifying import VerificationStatus, VerifyWish
 
 RUNNING = PlcState("running", "MONITOR", "", scan=150)
 

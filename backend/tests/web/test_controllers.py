@@ -13,7 +13,7 @@ from asyncua import Server as UaServer
 from asyncua import ua
 from lxml import etree
 
-from scanbench.client import Plc, Refused, connect
+from scanbench.client import Plc, Refused, connect, verdict
 from scanbench.client.shapes.verification import VerificationInfo
 from tests.amounts import slow
 from tests.cli.calling import scanbench
@@ -77,6 +77,11 @@ def test_a_second_plc_is_verified_while_it_runs_and_its_fault_is_found(server: S
     goes = until(server, plc, number, lambda info: info["compared"] > 20)
     assert (goes["state"], goes["differing"], goes["last"], goes["trace"]) == ("verifying", 0, None, address)
     assert "Sampled every 50 ms" in goes["message"]
+    assert verdict(goes) == "same in what was compared"  # it goes on
+    stopped = plc.stop_verification(number)
+    told = json.loads(plc.export_verification(number, "json"))
+    assert (verdict(stopped), told["verdict"], told["same"]) == ("same", "same", True)  # as the command says
+    server.http.patch(f"/api/verifications/{number}", json={"action": "resume"})
     controller.write("Main.level", 250)
     bad = until(server, plc, number, lambda info: info["differing"] > 0)
     assert bad["first_difference"] is not None
@@ -226,7 +231,7 @@ def test_the_command_reads_a_second_plc_by_opc_ua(server: Server, tmp_path: Path
     right = scanbench(*given, "--json")
     assert right.returncode == 0, right
     told = json.loads(right.stdout)
-    assert (told["same"], told["compared"] > 15, told["trace"]) == (True, True, address)
+    assert (told["same"], told["verdict"], told["compared"] > 15, told["trace"]) == (True, "same", True, address)
     assert {"Main.twice", "Main.high", "Main.part", "Main.n"} <= {
         each["variable"] for each in told["coverage"]["outputs"]
     }

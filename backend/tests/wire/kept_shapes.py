@@ -24,9 +24,9 @@ from scanbench.store.records import KeptRow, SweptError, WatchEntry
 from scanbench.verify.contract import Row
 from scanbench.verify.trace.mapping import TraceMapping
 from scanbench.wire.codec import pack_body  # noqa: F401 - imports all commands
-from scanbench.wire.events import VerificationStatus
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.verification import KeptRows
+from scanbench.wire.verifying import VerificationStatus
 from tests.store.said import missing
 
 GOLDEN = Path(__file__).with_name("golden") / "kept.json"

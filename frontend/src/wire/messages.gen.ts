@@ -10048,6 +10048,12 @@ export interface components {
              * @description the most uses of a row
              */
             used: number;
+            /**
+             * Verdict
+             * @description until now; `same` only where all that was asked was compared, of a log all that it has (see `coverage`)
+             * @enum {string}
+             */
+            verdict: "differs" | "same" | "same in what was compared" | "nothing compared";
         };
         /**
          * VerificationRecord

@@ -14,19 +14,9 @@ _OVER = ("stopped", "done", "failed")
 
 
 def verdict(found: shapes.VerificationInfo) -> Verdict:
-    """What a verification says so far. `same` only where every scan that was asked for was compared, and, of a trace, every variable that
-    the program wrote; what was left out is in `skipped`, `stretches`, `message` and `coverage`."""
-    if found["differing"]:
-        return "differs"
-    if found["compared"] == found["not_run"]:  # there was nothing to compare, also where the range never ran
-        return "nothing compared"
-    coverage = found["coverage"]
-    left_out = (
-        found["skipped"]
-        or found["not_reached"]
-        or (coverage is not None and (coverage["unrecorded"] or coverage["more"]))
-    )
-    return "same in what was compared" if left_out or found["state"] != "done" else "same"
+    """What a verification says so far. `same` only where every scan that was asked for was compared, of a controller log all that it has; what
+    was left out is in `skipped`, `stretches`, `message` and `coverage`."""
+    return found["verdict"]
 
 
 class Verifications(Asks):

@@ -121,6 +121,8 @@ class VerificationInfo(TypedDict):
     """scans of `compared` in which the range did not run: there was nothing of it to compare."""
     not_reached: int
     """scans of the past that were wanted and did not run until now."""
+    verdict: Literal["differs", "same", "same in what was compared", "nothing compared"]
+    """until now; `same` only where all that was asked was compared, of a log all that it has (see `coverage`)."""
     generation: int
     """raised when rows that were already sent have changed."""
 

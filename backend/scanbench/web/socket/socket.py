@@ -34,6 +34,7 @@ from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.together import PeopleChanged
+from scanbench.wire.verifying import VerificationStatus
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -126,7 +127,7 @@ class Client:
     # ---- the socket -----------------------------------------------------------------------------------------------
 
     async def serve(
-        self, project: ProjectRow, verifications: Callable[[Session], Iterable[events.VerificationStatus]]
+        self, project: ProjectRow, verifications: Callable[[Session], Iterable[VerificationStatus]]
     ) -> None:
         """Speaks with the browser until it goes."""
         await self._socket.accept()

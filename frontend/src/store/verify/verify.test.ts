@@ -25,6 +25,7 @@ const info = (memory: VerificationInfo["memory"], compared: number): Verificatio
   coverage: null,
   not_run: 0,
   not_reached: 0,
+  verdict: "same",
   stretches: [],
   differing: 0,
   first_difference: null,

@@ -35,6 +35,7 @@ const info = (part: Partial<VerificationInfo>): VerificationInfo => ({
   coverage: null,
   not_run: 0,
   not_reached: 0,
+  verdict: "same",
   stretches: [],
   differing: 0,
   first_difference: null,

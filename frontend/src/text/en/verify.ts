@@ -54,6 +54,7 @@ export const verify = {
   "verify.details": "Details of the row",
   "verify.differences.none": "There is no difference",
   "verify.differences.nothing": "Nothing was compared",
+  "verify.differences.partly": "There is no difference in what was compared",
   "verify.difference": "Difference {at} of {of}",
   "verify.differs": "Differs",
   "verify.differ": "differ",

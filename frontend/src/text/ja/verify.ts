@@ -53,6 +53,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.details": "行の詳細",
   "verify.differences.nothing": "何も比較していません",
   "verify.differences.none": "相違はありません",
+  "verify.differences.partly": "比較した範囲に相違はありません",
   "verify.difference": "相違 {at} / {of}",
   "verify.differs": "相違",
   "verify.differ": "相違",

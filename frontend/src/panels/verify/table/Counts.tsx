@@ -29,6 +29,12 @@ const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> 
   done: ["running", "check"],
   failed: ["fatal", "error"],
 };
+const NO_DIFFERENCE = {
+  differs: "verify.differences.none", // none is left in the rows that are shown
+  same: "verify.differences.none",
+  "same in what was compared": "verify.differences.partly",
+  "nothing compared": "verify.differences.nothing",
+} as const satisfies Record<VerificationInfo["verdict"], string>;
 const NOTHING: (typeof STATES)["done"] = ["halted", "warning"];
 
 /** The progress, the result, and the buttons for the next and the previous difference. */
@@ -38,7 +44,7 @@ export function Counts({ shown }: { shown: ShownVerification }) {
   const [kept, sayKept] = useState<string | null>(null);
   const onlyDiffering = useVerifyRows((rows) => rows.onlyDiffering);
   const none = useVerifyRows((rows) => rows.differing.length === 0);
-  const same = ranIn(info) === 0 ? t("verify.differences.nothing") : t("verify.differences.none");
+  const same = t(NO_DIFFERENCE[info.verdict]);
   return (
     <div className="sub tall vfcounts">
       <Stat value={ranIn(info)} word={t("verify.compared")} id="compared" />
@@ -159,7 +165,7 @@ function State({ info }: { info: VerificationInfo }) {
   // A verification that keeps up with a running PLC waits for each next scan: that is its normal state.
   const keepsUp = info.state === "waiting" && info.source === "live" && info.pace === "free" && runs;
   const state = keepsUp ? "verifying" : info.state;
-  const nothing = state === "done" && info.differing === 0 && ranIn(info) === 0;
+  const nothing = state === "done" && info.verdict === "nothing compared";
   const [tone, icon] = nothing ? NOTHING : STATES[state];
   const about = info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) });
   return (

@@ -82,6 +82,7 @@ const INFO: VerificationInfo = {
   coverage: null,
   not_run: 0,
   not_reached: 0,
+  verdict: "same",
   differing: 1,
   first_difference: DIFFERENCE,
   limit: 4096,
@@ -235,7 +236,16 @@ test("of a controller log it says what was compared, and what was not", async ()
 
 test("of a range that never ran it says that nothing was compared", async () => {
   await openVerify(
-    { ...INFO, state: "done", last: 502, differing: 0, first_difference: null, not_run: 3, not_reached: 7 },
+    {
+      ...INFO,
+      state: "done",
+      last: 502,
+      differing: 0,
+      first_difference: null,
+      not_run: 3,
+      not_reached: 7,
+      verdict: "nothing compared",
+    },
     "none",
   );
   expect(textOf(screen.getByTestId("verify:compared"))).toContain("0");
