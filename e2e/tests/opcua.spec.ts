@@ -60,6 +60,23 @@ test('an operator panel that speaks OPC UA shows an error that is raised here, a
     await expect(page.locator('[data-pane=log]')).toContainText('battery-error was acknowledged: a new battery is in');
   });
 
+  await test.step('it finds the program where PLCopen has it', async () => {
+    const [own, di, iec] = [
+      'urn:scanbench:plc',
+      'http://opcfoundation.org/UA/DI/',
+      'http://PLCopen.org/OpcUa/IEC61131-3/',
+    ];
+    const main = await panel.find(
+      [di, 'DeviceSet'],
+      [own, 'line-1'],
+      [iec, 'Resources'],
+      [own, 'Resource'],
+      [iec, 'Programs'],
+      [own, 'Main'],
+    );
+    expect(main).toBe('ns=2;s=Main');
+  });
+
   await test.step('it can be read by everybody', async () => {
     const { violations } = await new AxeBuilder({ page }).include('[data-pane=communication]').analyze();
     expect(violations).toEqual([]);

@@ -14,7 +14,7 @@ from scanbench.comm.modbus.mapping import default
 from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.server.communication import Server
-from tests.amounts import amount
+from tests.amounts import amount, nightly
 from tests.comm.bench import LocalDoor, machine
 
 FRAMES = amount(100_000, 320)
@@ -33,6 +33,7 @@ KINDS: dict[str, tuple[str, Callable[[Desk], Server], list[bytes], bytes]] = {
 }
 
 
+@nightly
 @pytest.mark.parametrize("kind", KINDS)
 def test_broken_frames_harm_nobody(kind: str, caplog: pytest.LogCaptureFixture) -> None:
     model, make, whole, answer = KINDS[kind]

@@ -10,7 +10,7 @@ import pytest
 from asyncua import Client, ua
 
 from bench.broken_frames import AT_ONCE, broken_opcua, messages_of_opcua
-from tests.amounts import amount, slow
+from tests.amounts import amount, nightly, slow
 from tests.web.server import PATIENCE_S, Server
 from tests.web.test_communication import MODEL, seen, until
 from tests.web.test_opcua import SOURCE, Changes, at, client_at, run, switch_on, write
@@ -193,6 +193,7 @@ def process_of(server: Server) -> tuple[int, int]:
     return largest, sizes[largest]
 
 
+@nightly
 def test_broken_messages_harm_nobody(server: Server) -> None:
     instance = server.instance("opc ua storm", MODEL, main=SOURCE)
     address = switch_on(server, instance)

@@ -13,6 +13,7 @@ def standard(number: int) -> ua.NodeId:
     return ua.NodeId(cast(ua.Int32, number))
 
 
-def own(identifier: int | str) -> ua.NodeId:
-    """A node of the PLC: a number where it is always there, or the path of what the program has."""
-    return ua.NodeId(cast(ua.Int32, identifier), cast(ua.Int16, INDEX))
+def own(identifier: int | str, index: int = INDEX) -> ua.NodeId:
+    """A node of the PLC: a number where it is always there, or the path of what the program has. With `index`, one of a namespace
+    that somebody published."""
+    return ua.NodeId(cast(ua.Int32, identifier), cast(ua.Int16, index))

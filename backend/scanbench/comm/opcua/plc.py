@@ -18,6 +18,7 @@ from scanbench.comm.opcua.forms import Form
 from scanbench.comm.opcua.ids import INDEX, own, standard
 from scanbench.comm.opcua.items import Publishing
 from scanbench.comm.opcua.link import Link
+from scanbench.comm.opcua.plcopen import put_tasks
 from scanbench.comm.opcua.socket import OpcUa
 from scanbench.comm.opcua.space import NAMESPACE, Space, Variable
 from scanbench.comm.opcua.values import Values, bad, clock_of
@@ -48,6 +49,8 @@ class Plc:
         self._server: OpcUa | None = None
         self._errors: Errors | None = None
         self._changed: EventGenerator | None = None
+        self._iec = 0
+        """The index of the namespace of PLCopen."""
 
     @property
     def port(self) -> int:
@@ -71,7 +74,9 @@ class Plc:
         index = await server.register_namespace(NAMESPACE)
         assert index == INDEX
         self._make(iserver.desk)
-        await show_device(server, _PLC, self._start.plc, self._start.model)
+        self._iec = await show_device(
+            server, self._space, _PLC, (_PROGRAMS, _GLOBALS), (_STATUS, _ERRORS), self._start.plc, self._start.model
+        )
         self._errors = iserver.desk.alarms = Errors(server, self._values, _ERRORS, self._shown_errors())
         self._changed = await server.get_event_generator(ua.ObjectIds.GeneralModelChangeEventType)
         await server.start()
@@ -119,6 +124,7 @@ class Plc:
         """Shows the nodes of another program, and tells who has subscribed to what is gone."""
         program = await asyncio.to_thread(self._program, sources)
         gone = self._space.take(program, _PROGRAMS, _GLOBALS)
+        put_tasks(self._space, self._iec, program)
         self._values.on_program(sources.version)
         for each in gone:
             await self._values.give(each, None, bad(ua.StatusCodes.BadNodeIdUnknown))

@@ -1,6 +1,6 @@
 """The address space: nodes of the program that runs, and what asyncua's own holds."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from scanbench.comm.opcua.forms import Form, form_of
 from scanbench.comm.opcua.ids import INDEX, own, standard
 from scanbench.comm.opcua.tree import Item, items, writable
 from scanbench.program.program import Program
-from scanbench.program.types import ArrayType, Enumeration, Type
+from scanbench.program.types import ArrayType, Enumeration, Kind, Record, Type
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.wire.memory import AreaSpan
 from scanbench.wire.variables import VariablesAre
@@ -19,14 +19,14 @@ from scanbench.wire.variables import VariablesAre
 NAMESPACE = "urn:scanbench:plc"
 _ASKED = 10_000
 """Nodes that are made because a client asked for their path. Where there are more, those without a subscriber go."""
-_ORGANIZES, _HAS_COMPONENT, _HAS_TYPE, _HAS_SUBTYPE, _HAS_PROPERTY = (
+ORGANIZES, HAS_COMPONENT, _HAS_TYPE, _HAS_SUBTYPE, HAS_PROPERTY = (
     standard(each)
     for each in (
         ua.ObjectIds.Organizes, ua.ObjectIds.HasComponent, ua.ObjectIds.HasTypeDefinition, ua.ObjectIds.HasSubtype,
         ua.ObjectIds.HasProperty,
     )
 )  # fmt: skip
-_FOLDER, _OBJECT, _VARIABLE, _PROPERTY = (
+_FOLDER, _OBJECT, _VARIABLE, PROPERTY = (
     standard(each)
     for each in (
         ua.ObjectIds.FolderType, ua.ObjectIds.BaseObjectType, ua.ObjectIds.BaseDataVariableType, ua.ObjectIds.PropertyType,
@@ -35,6 +35,17 @@ _FOLDER, _OBJECT, _VARIABLE, _PROPERTY = (
 _Attributes = dict[ua.AttributeIds, AttributeValue]
 READ, WRITE = 1, 3
 """Access levels: CurrentRead, and that with CurrentWrite."""
+
+
+@dataclass(frozen=True, slots=True)
+class Iec:
+    """How PLCopen calls what a program has; see `plcopen.py`."""
+
+    program: ua.NodeId
+    """The type above those of programs."""
+    block: ua.NodeId
+    sections: Mapping[str, ua.NodeId]
+    """References to variables, by their section."""
 
 
 @dataclass(eq=False, slots=True)
@@ -73,6 +84,11 @@ class Space(AddressSpace):
         self._own: list[ua.NodeId] = []
         self._asked: dict[ua.NodeId, None] = {}
         self._types: dict[str, ua.NodeId] = {}
+        self.iec: Iec | None = None
+        self.also: Mapping[ua.NodeId, ua.NodeId] = {}
+        """Folders that refer to the same programs and global variables, by those of `take`."""
+        self.renewed: tuple[ua.NodeId, ...] = ()
+        """Nodes besides that refer to what a program has."""
 
     def delete_datachange_callback(self, handle: int) -> None:
         """As asyncua does; the node may be gone with the program that had it."""
@@ -94,11 +110,9 @@ class Space(AddressSpace):
         before = {**self._lost, **self.variables}
         for id in self._own:
             self._nodes.pop(id, None)
-        for folder in (programs, globals, standard(ua.ObjectIds.Enumeration)):
+        for folder in (programs, globals, standard(ua.ObjectIds.Enumeration), *self.renewed):
             references = self._nodes[folder].references
-            references[:] = [
-                each for each in references if not (each.IsForward and each.NodeId.NamespaceIndex == INDEX)
-            ]
+            references[:] = [each for each in references if not (each.IsForward and _of_program(each.NodeId))]
         self._program, self._own, self._asked, self._types = program, [], {}, {}
         self.variables = {id: each for id, each in before.items() if not each.path}
         for item in items(program):
@@ -154,14 +168,35 @@ class Space(AddressSpace):
             kind, type = ua.NodeClass.Variable, _VARIABLE
         else:
             node = self.put(id, symbol.name, ua.NodeClass.Object, {ua.AttributeIds.EventNotifier: _byte(0)})
-            kind, type = ua.NodeClass.Object, _OBJECT
+            kind, type = ua.NodeClass.Object, self._kind(symbol)
         node.attributes[ua.AttributeIds.Description] = _text(f"{symbol.type.name} {symbol.address or ''}".strip())
         self._own.append(id)
         self.refer(id, _HAS_TYPE, type)
         if parent is not None:
-            organized = parent.NamespaceIndex == INDEX and isinstance(parent.Identifier, int)
-            self.join(parent, id, _ORGANIZES if organized else _HAS_COMPONENT, kind, type)
+            self.join(parent, id, ORGANIZES if not _of_program(parent) else self._how(symbol), kind, type)
+            if parent in self.also:
+                self.join(self.also[parent], id, ORGANIZES, kind, type)
         return node
+
+    def _kind(self, symbol: Symbol) -> ua.NodeId:
+        """The type of an object: one for each POU."""
+        type, iec = symbol.type, self.iec
+        if iec is None or not isinstance(type, Record) or type.kind is not Kind.BLOCK:
+            return _OBJECT
+        name, above = f"pou:{type.name}", iec.program if symbol.section == "PROGRAM" else iec.block
+        if name not in self._types:
+            self._types[name] = own(name)
+            self.put_type(own(name), type.name, above)
+            self.mine(own(name))
+        return self._types[name]
+
+    def _how(self, symbol: Symbol) -> ua.NodeId:
+        """What a variable is of the instance that has it."""
+        return HAS_COMPONENT if self.iec is None else self.iec.sections.get(symbol.section, HAS_COMPONENT)
+
+    def mine(self, id: ua.NodeId) -> None:
+        """This node goes with the program."""
+        self._own.append(id)
 
     def _variable(self, id: ua.NodeId, symbol: Symbol, before: Variable | None) -> None:
         program = self._program
@@ -204,8 +239,8 @@ class Space(AddressSpace):
         self.put(property, "EnumValues", ua.NodeClass.Variable, _described(_value(values, ua.VariantType.ExtensionObject),
                  standard(ua.ObjectIds.EnumValueType), (len(values),), READ), space=0)  # fmt: skip
         self._own.append(property)
-        self.refer(property, _HAS_TYPE, _PROPERTY)
-        self.join(id, property, _HAS_PROPERTY, ua.NodeClass.Variable, _PROPERTY)
+        self.refer(property, _HAS_TYPE, PROPERTY)
+        self.join(id, property, HAS_PROPERTY, ua.NodeClass.Variable, PROPERTY)
         return id
 
     # ---- nodes of any kind ----------------------------------------------------------------------------------------
@@ -217,24 +252,41 @@ class Space(AddressSpace):
         self.variables[variable.id] = variable
         return self.put(variable.id, name, ua.NodeClass.Variable, attributes)
 
-    def put_object(self, id: ua.NodeId, name: str, type: ua.NodeId, parent: ua.NodeId, events: bool = False) -> None:
-        """An object or a folder below another one; `events`: it tells of some."""
-        self.put(id, name, ua.NodeClass.Object, {ua.AttributeIds.EventNotifier: _byte(int(events))})
+    def put_object(
+        self, id: ua.NodeId, name: str, type: ua.NodeId, parent: ua.NodeId, events: bool = False, *,
+        how: ua.NodeId | None = None, space: int = INDEX,
+    ) -> None:  # fmt: skip
+        """An object or a folder below another one, which organizes it unless `how` says otherwise; `events`: it tells of some."""
+        self.put(id, name, ua.NodeClass.Object, {ua.AttributeIds.EventNotifier: _byte(int(events))}, space)
         self.refer(id, _HAS_TYPE, type)
-        self.join(parent, id, _ORGANIZES, ua.NodeClass.Object, type)
+        self.join(parent, id, how or ORGANIZES, ua.NodeClass.Object, type)
+
+    def put_type(self, id: ua.NodeId, name: str, above: ua.NodeId, space: int = INDEX, abstract: bool = False) -> None:
+        """A type of objects."""
+        self.put(id, name, ua.NodeClass.ObjectType, {ua.AttributeIds.IsAbstract: _bool(abstract)}, space)
+        self.join(above, id, _HAS_SUBTYPE, ua.NodeClass.ObjectType, None)
+
+    def put_reference_type(self, id: ua.NodeId, name: str, inverse: str, above: ua.NodeId, space: int) -> None:
+        """A type of references."""
+        attributes = {
+            ua.AttributeIds.IsAbstract: _bool(False), ua.AttributeIds.Symmetric: _bool(False),
+            ua.AttributeIds.InverseName: _text(inverse),
+        }  # fmt: skip
+        self.put(id, name, ua.NodeClass.ReferenceType, attributes, space)
+        self.join(above, id, _HAS_SUBTYPE, ua.NodeClass.ReferenceType, None)
 
     def put_fixed(self, variable: Variable, name: str, parent: ua.NodeId) -> None:
         """A variable that every program has."""
         assert isinstance(variable.form.data_type, ua.NodeId)
         self.put_variable(variable, name, variable.form.data_type)
         self.refer(variable.id, _HAS_TYPE, _VARIABLE)
-        self.join(parent, variable.id, _HAS_COMPONENT, ua.NodeClass.Variable, _VARIABLE)
+        self.join(parent, variable.id, HAS_COMPONENT, ua.NodeClass.Variable, _VARIABLE)
 
     def put_method(self, id: ua.NodeId, name: str, parent: ua.NodeId, arguments: Sequence[tuple[str, str]]) -> None:
         """A method whose arguments are texts: name and description of each."""
         yes = AttributeValue(_value(True, ua.VariantType.Boolean))
         self.put(id, name, ua.NodeClass.Method, {ua.AttributeIds.Executable: yes, ua.AttributeIds.UserExecutable: yes})
-        self.join(parent, id, _HAS_COMPONENT, ua.NodeClass.Method, None)
+        self.join(parent, id, HAS_COMPONENT, ua.NodeClass.Method, None)
         if not arguments:
             return
         taken = [
@@ -245,8 +297,8 @@ class Space(AddressSpace):
         property = own(f"arguments:{name}")
         described = _described(value, standard(ua.ObjectIds.Argument), (len(taken),), READ)
         self.put(property, "InputArguments", ua.NodeClass.Variable, described, space=0)
-        self.refer(property, _HAS_TYPE, _PROPERTY)
-        self.join(id, property, _HAS_PROPERTY, ua.NodeClass.Variable, _PROPERTY)
+        self.refer(property, _HAS_TYPE, PROPERTY)
+        self.join(id, property, HAS_PROPERTY, ua.NodeClass.Variable, PROPERTY)
 
     def put(
         self, id: ua.NodeId, name: str, kind: ua.NodeClass, attributes: _Attributes, space: int = INDEX
@@ -317,6 +369,10 @@ class _Nodes(dict[ua.NodeId, NodeData]):
         return found if found is not None else self._space.ask(id) or default
 
 
+def _of_program(id: ua.NodeId) -> bool:
+    return id.NamespaceIndex == INDEX and isinstance(id.Identifier, str)
+
+
 def _span(symbol: Symbol, program: Program) -> AreaSpan | None:
     found = None if symbol.slots else program.layout.area_at(symbol.offset)
     size = 1 if symbol.bit is not None else symbol.type.size
@@ -329,6 +385,10 @@ def _value(value: object, variant: ua.VariantType) -> ua.DataValue:
 
 def _text(text: str) -> AttributeValue:
     return AttributeValue(_value(ua.LocalizedText(text), ua.VariantType.LocalizedText))
+
+
+def _bool(yes: bool) -> AttributeValue:
+    return AttributeValue(_value(yes, ua.VariantType.Boolean))
 
 
 def _byte(number: int) -> AttributeValue:
@@ -369,3 +429,8 @@ def _described(
             ua.DataValue(ua.Variant(list(dimensions), ua.VariantType.UInt32, is_array=True))
         )
     return found
+
+
+def described_one(value: object, variant: ua.VariantType) -> _Attributes:
+    """Attributes of a variable with one value that nobody writes."""
+    return _described(_value(value, variant), standard(variant.value), (), READ)
