@@ -164,9 +164,10 @@ def _expectation(found: object, where: str, scans: int) -> Expectation:
         return Expectation(kind, condition, at, at)
     first = _number(entry, "from", where, scans)
     last = first + _number(entry, "within", where, scans) if kind == "holds" else _number(entry, "to", where, scans)
-    if not first <= last <= scans:
+    least = first if kind == "holds" else first + 1
+    if not least <= last <= scans:
         raise BadScenario(
-            f"{where}: it ends with scan {last}, which is not from {first} to {scans}, where the scenario ends"
+            f"{where}: it ends with scan {last}, which is not from {least} to {scans}, where the scenario ends"
         )
     return Expectation(kind, condition, first, last)
 

@@ -59,7 +59,7 @@ class Driving:
         if left is not None and left <= 0:
             self._pacer.lose(f"stopped at scan {scan}, as asked for")
             return
-        self._resource.waiting.until = condition
+        self._resource.waiting.until = () if condition is None else (condition,)
         self._pacer.run_on(scan, left, condition)
 
     # ---- how it is driven -----------------------------------------------------------------------------------------
@@ -189,7 +189,7 @@ class Driving:
         refusal = self._no_room() or self._keep(protocol.Driven(speed, False, end, drive.until))
         if refusal is not None:
             return refusal
-        self._resource.waiting.until = condition
+        self._resource.waiting.until = () if condition is None else (condition,)
         self._pacer.run_on(self._resource.header.scan, drive.scans, condition)
         if self._debugger.halt is not None:
             self._debugger.step("continue", drive.author)
@@ -209,7 +209,7 @@ class Driving:
         if self._debugger.halt is not None:
             return self._debugger.step("scan", author) or "one scan"
         self._pacer.pause()
-        self._resource.waiting.until = None
+        self._resource.waiting.until = ()
         scan = self._resource.header.scan
         while self._resource.runnable and self._resource.header.scan == scan:
             if self._debugger.run(1).reason in (Reason.TRAP, Reason.HALTED):

@@ -178,7 +178,7 @@ class Loop:
         scan = resource.header.scan
         pacer.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if pacer.paused:
-            self.resource.waiting.until = None
+            self.resource.waiting.until = ()
         if pacer.paused or stop.reason is Reason.HALTED:
             self._tick = True
         pacer.worked(resource.measured.busy_ns - busy)
@@ -271,10 +271,11 @@ class Loop:
         """Adapts places, pace and conditions to a new program."""
         self._pacer.set_pace(self.resource.program.interval_ns)
         condition = self._pacer.condition
-        if condition is not None and self.resource.waiting.until is None:
+        again = next(iter(self.resource.waiting.until), None)
+        if condition is not None and again is None:
             self._pacer.lose(f"paused: the new program has no meaning for {condition.text}")
         else:
-            self._pacer.condition = self.resource.waiting.until
+            self._pacer.condition = again
         self.programs.drop_idle(self.timeline.resource.version, self.timeline.live.version)
         self._services.moved()
         self.debugging.moved()

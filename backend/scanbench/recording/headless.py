@@ -63,7 +63,7 @@ def run_headless(
     loaded = Loaded.make(program, engine_factory)
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
-    resource.waiting.until = until
+    resource.waiting.until = () if until is None else (until,)
     if interrupt is not None:
         interrupt.reaches(resource.interrupt)
     if on_begin is not None:

@@ -150,9 +150,13 @@ class Timeline:
         program = self.resource.program
         outcome = self.resource.submit(command)
         waiting = self.resource.waiting
-        if self.resource.program is not program and waiting.until is not None:
-            again = compile_condition(self.resource.program, waiting.until.text)
-            waiting.until = again if isinstance(again, Condition) else None
+        if self.resource.program is not program and waiting.until:
+            again = [compile_condition(self.resource.program, each.text) for each in waiting.until]
+            waiting.until = tuple(
+                replace(each, unknown=before.unknown)
+                for each, before in zip(again, waiting.until, strict=True)
+                if isinstance(each, Condition)
+            )
         self._checkpoints.take_due(self.resource)
         return outcome
 

@@ -151,8 +151,7 @@ class Resource:
             return Stop(Reason.HALTED)
         came_true = held(self.engine, waits) if stop.reason is Reason.CONDITION else NONE_MET.conditions
         met = Met(came_true, listening.reached(waits.sites))
-        until = self.waiting.until
-        if stop.reason is Reason.CONDITION and (until is None or not self.engine.holds(until)):
+        if stop.reason is Reason.CONDITION and not any(map(self.engine.holds, self.waiting.until)):
             stop = Stop(Reason.INTERRUPTED)
         if stop.reason is Reason.TRAP:
             self._notice(stop.trap)

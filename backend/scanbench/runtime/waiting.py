@@ -15,8 +15,8 @@ class Waiting:
 
     def __init__(self, agenda: Agenda | None) -> None:
         self.agenda = agenda
-        self.until: Condition | None = None
-        """A live run comes back after each scan after which it holds. Made for the program that is live: after a change of
+        self.until: tuple[Condition, ...] = ()
+        """A live run comes back after each scan after which one of them holds. Made for the program that is live: after a change of
         the program whoever set it has to make it again (`Timeline.submit` does). It stays in force through time travel."""
         self.samplings: tuple[Sampling, ...] = ()
         """What is sampled, but not while a program runs that they were not made for. A scan of the past that is run again
@@ -30,7 +30,7 @@ class Waiting:
 
     def conditions(self, waits: Waits) -> tuple[Condition, ...]:
         """All conditions for which a live run comes back."""
-        return waits.conditions if self.until is None else (self.until, *waits.conditions)
+        return (*self.until, *waits.conditions)
 
     def tell(self, engine: Engine, program: Program, conditions: tuple[Condition, ...]) -> None:
         """This engine is to run the program: for these conditions it comes back, and it samples."""

@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
+from scanbench.check.typed.condition import Condition
 from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.testing.command_text import read_command
-from scanbench.testing.plc import Plc, PlcFailure, PlcRefused
+from scanbench.testing.plc import NO_VALUE, Plc, PlcFailure, PlcRefused
 from scanbench.testing.raising import BadCommand
 from scanbench.testing.said import with_near
 
@@ -41,6 +42,8 @@ class _Player:
         self._plc, self._scenario = plc, scenario
         self._steps = list(scenario.steps)
         self._open = list(scenario.expect)
+        self._begun: dict[Expectation, int] = {}
+        """In how many scans the program had run when this began to be expected."""
 
     def seam(self) -> Failed | None:
         """What is expected after the scan that ran last, then what comes before the next one."""
@@ -53,12 +56,8 @@ class _Player:
             [step.at for step in self._steps] + [each.last for each in self._open] + [each.first for each in self._open]
         )
         end = min([self._scenario.scans, *(each for each in bounds if each > now)])
-        looked = [_interesting(each) for each in self._open if each.first <= now]
         try:
-            if looked:
-                self._plc.run_to(end, " OR ".join(looked))
-            else:
-                self._plc.run(end - now)
+            self._plc.run_to(end, [self._interesting(each) for each in self._open if each.first <= now])
         except PlcFailure as failure:
             return Failed("trap", self._plc.scan, str(failure))
         return None
@@ -66,26 +65,28 @@ class _Player:
     def _look(self) -> Failed | None:
         now = self._plc.scan
         for each in [each for each in self._open if each.first <= now]:
+            begin = self._begun.setdefault(each, self._plc.ran)
             try:
-                held = self._plc.holds(each.condition)
+                held = self._plc.truth(each.condition)
             except PlcRefused as refused:
                 return Failed(f"refused: {each}", now, str(refused))
-            if each.kind == "holds" and held:
-                self._open.remove(each)
-            elif each.kind == "holds" and now >= each.last:
-                return Failed(
-                    str(each),
-                    now,
-                    self._plc.told(f"`{each.condition}` does not hold after {now} scans", each.condition),
-                )
-            elif each.kind != "holds" and now > each.first and held != (each.kind == "always"):
-                word = "holds" if held else "does not hold"
-                return Failed(
-                    str(each), now, self._plc.told(f"`{each.condition}` {word} after {now} scans", each.condition)
-                )
-            elif each.kind != "holds" and now >= each.last:
+            is_right = held if each.kind == "holds" else held == (each.kind == "always")
+            watched = now >= each.last if each.kind == "holds" else now > each.first
+            if watched and not is_right:
+                word = NO_VALUE if held is None else "holds" if held else "does not hold"
+                said = f"`{each.condition}` {word} after {now} scans"
+                return Failed(str(each), now, self._plc.told(said, each.condition))
+            if each.kind != "holds" and now >= each.last and self._plc.ran == begin:
+                return Failed(str(each), now, f"`{each.condition}` {self._plc.untested(each.first)}")
+            if now >= each.last or (each.kind == "holds" and held):
                 self._open.remove(each)
         return None
+
+    def _interesting(self, each: Expectation) -> Condition:
+        """When the PLC has to be looked at."""
+        if each.kind == "holds":
+            return self._plc.condition(each.condition)
+        return self._plc.stops(each.condition, "NOT ({})" if each.kind == "always" else "{}")
 
     def _enter(self) -> Failed | None:
         while self._steps and self._steps[0].at <= self._plc.scan:
@@ -96,11 +97,6 @@ class _Player:
                     f"refused: {step.do}", self._plc.scan, f"`{step.do}` before scan {step.at} is refused: {why}"
                 )
         return None
-
-
-def _interesting(each: Expectation) -> str:
-    """When the PLC has to be looked at."""
-    return f"(NOT ({each.condition}))" if each.kind == "always" else f"({each.condition})"
 
 
 def _entered(plc: Plc, step: Step) -> str:

@@ -1,8 +1,9 @@
 """The PLC of one test: it runs when the test says so, on virtual time. Its run is recorded, for whoever looks at a failure."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from scanbench.check.typed.condition import Condition, compile_condition
@@ -16,7 +17,6 @@ from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.header import Mode
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import LoadedPrograms
@@ -31,6 +31,7 @@ from scanbench.wire.host import Sources
 
 Value = str | int | float | bool
 AUTHOR = "test"
+NO_VALUE = "has no value (an index is outside, a divisor is 0 or a reference refers to nothing)"
 _VERSION = 1
 _NAMES = re.compile(r"[A-Za-z_][\w.]*(?:\[[^]]*\][\w.]*)*")
 _SHOWN = 12
@@ -50,6 +51,8 @@ class Plc:
     def __init__(self, project: Project, run: Path) -> None:
         """`run` is where its run file is to be."""
         self._project, self.run_file, self._closed = project, run, False
+        self.ran = 0
+        """Scans in which the program ran."""
         sources = Sources(project.model, project.files, project.loaded.program.interval_ns, _VERSION)
         self._timeline = Timeline.begin(
             run, LoadedPrograms(project.loaded), _VERSION, pack_body(sources), ENTRIES, AUTHOR, Detection(),
@@ -92,8 +95,18 @@ class Plc:
         return worth(self._resource.program, self._resource.memory, self._find(path))
 
     def holds(self, condition: str) -> bool:
-        """Whether a BOOL expression of ST holds now."""
-        return self._resource.engine.holds(self._condition(condition))
+        """Whether a BOOL expression of ST holds now. `PlcFailure` where it has no value: an index is outside, a divisor is 0."""
+        held = self.truth(condition)
+        if held is None:
+            raise PlcFailure(self.told(f"`{condition}` {NO_VALUE} before scan {self.scan}", condition))
+        return held
+
+    def truth(self, condition: str) -> bool | None:
+        """Whether it holds now; None where it has no value."""
+        engine = self._resource.engine
+        if engine.holds(self.condition(condition)):
+            return True
+        return None if engine.holds(self.condition(condition, unknown=True)) else False
 
     @property
     def errors(self) -> tuple[str, ...]:
@@ -106,14 +119,15 @@ class Plc:
         except UnknownPath as error:
             raise PlcRefused(_said(error.message, tuple(error.near))) from None
 
-    def _condition(self, text: str) -> Condition:
-        known = self._project.conditions.get(text)
+    def condition(self, text: str, unknown: bool = False) -> Condition:
+        """A BOOL expression of ST about the program, and whether it holds where it has no value; `PlcRefused`."""
+        known = self._project.conditions.get((text, unknown))
         if known is not None:
             return known
         made = compile_condition(self._resource.program, text)
         if not isinstance(made, Condition):
             raise PlcRefused(f"`{text}`: {_said(made.message, made.near)}")
-        self._project.conditions[text] = made
+        self._project.conditions[text, unknown] = made = replace(made, unknown=unknown)
         return made
 
     # ---- changing -------------------------------------------------------------------------------------------------
@@ -169,11 +183,11 @@ class Plc:
 
     def run(self, scans: int = 1) -> None:
         """Runs so many scans; they pass without the program while it is stopped. `PlcFailure` when it traps."""
-        self._run_until(None, scans)
+        self._run_until((), scans)
 
-    def run_to(self, scan: int, condition: str) -> bool:
-        """Runs until the condition holds after a scan, or up to a scan: whether it holds."""
-        return self._run_until(self._condition(condition), scan - self.scan)
+    def run_to(self, scan: int, conditions: Sequence[Condition]) -> bool:
+        """Runs until one of the conditions holds after a scan, or up to a scan: whether one holds."""
+        return self._run_until(conditions, scan - self.scan)
 
     def run_until(self, condition: str, most: int = 10_000) -> int:
         """Runs until a condition holds after a scan: how many scans that took. `PlcFailure` after so many."""
@@ -182,56 +196,68 @@ class Plc:
     def within_scans(self, most: int, condition: str) -> int:
         """The condition holds now, or after one of the next `most` scans, where it stays: how many scans that took."""
         begin = self.scan
-        if not self.holds(condition) and not self._run_until(self._condition(condition), most):
-            raise PlcFailure(
-                f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}. {_values(self._resource, condition)}"
-            )
+        if not self.truth(condition) and not self._run_until((self.condition(condition),), most):
+            last = " In the last one it had no value." if self.truth(condition) is None else ""
+            what = f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}"
+            raise PlcFailure(self.told(f"{what}.{last}" if last else what, condition))
         return self.scan - begin
 
     def always(self, scans: int, condition: str) -> None:
-        """Runs so many scans, at least 1, after each of which the condition holds. `PlcFailure` too in mode PROGRAM, where no program runs."""
-        self._watch(scans, condition, f"NOT ({condition})", "did not hold any more")
+        """Runs so many scans, at least 1, after each of which the condition holds.
+
+        `PlcFailure` too where it has no value after one of them, and where the program ran in none of them: in mode PROGRAM, after an
+        error that stops it.
+        """
+        self._watch(scans, condition, "NOT ({})", "did not hold any more")
 
     def never(self, scans: int, condition: str) -> None:
-        """Runs so many scans, at least 1, after none of which the condition holds. `PlcFailure` too in mode PROGRAM, where no program runs."""
-        self._watch(scans, condition, condition, "held")
+        """Runs so many scans, at least 1, after none of which the condition holds. `PlcFailure` otherwise as of `always`."""
+        self._watch(scans, condition, "{}", "held")
 
     def _watch(self, scans: int, condition: str, wrong: str, what: str) -> None:
         if scans < 1:
             raise PlcRefused(f"`{condition}` is to be looked at after {scans} scans, so never; give 1 or more.")
-        begin, header = self.scan, self._resource.header
-        stopped = header.mode is Mode.PROGRAM
-        if self._run_until(self._condition(wrong), scans):
-            ran = self.scan - 1
+        self.condition(condition)  # what is wrong with it is told of what was written
+        begin, ran = self.scan, self.ran
+        if self._run_until((self.stops(condition, wrong),), scans):
+            last = self.scan - 1
+            found = NO_VALUE if self.truth(condition) is None else what
             raise PlcFailure(
-                f"`{condition}` {what} after scan {ran}, the {ran - begin + 1}. of {scans}. {_values(self._resource, condition)}"
+                self.told(f"`{condition}` {found} after scan {last}, the {last - begin + 1}. of {scans}", condition)
             )
-        if stopped and header.mode is Mode.PROGRAM:
-            raise PlcFailure(
-                f"`{condition}` was not tested: the PLC is in mode PROGRAM, so the program ran in none of the {scans} scans "
-                f"{begin} to {self.scan - 1}."
-            )
+        if self.ran == ran:
+            raise PlcFailure(f"`{condition}` {self.untested(begin)}")
 
-    def _run_until(self, condition: Condition | None, scans: int) -> bool:
-        """Runs until that holds after a scan, at most so many; whether it does."""
+    def stops(self, condition: str, wrong: str) -> Condition:
+        """When a condition is wrong, as `NOT ({})` or `{}` says, or has no value."""
+        return self.condition(wrong.format(condition), unknown=True)
+
+    def untested(self, begin: int) -> str:
+        """What is said of a condition that was looked at since this scan, where the program ran in none."""
+        why = "mode PROGRAM, or an error that stops the program"
+        return f"was not tested: no program ran in the scans {begin} to {self.scan - 1} ({why})."
+
+    def _run_until(self, conditions: Sequence[Condition], scans: int) -> bool:
+        """Runs until one of these holds after a scan, at most so many scans; whether one does."""
         resource = self._resource
         end = resource.header.scan + scans
-        resource.waiting.until = condition
+        resource.waiting.until = tuple(conditions)
         try:
             while resource.header.scan < end:
+                before = resource.header.scan
                 if not resource.runnable:
-                    before = resource.header.scan
                     resource.idle(end - before)
-                    if condition is not None and resource.engine.holds(condition):
+                    if any(map(resource.engine.holds, conditions)):
                         return True
                     continue
-                stop = self._timeline.run(end - resource.header.scan)
+                stop = self._timeline.run(end - before)
                 self._timeline.note()
                 _must_not_trap(resource)
-                if condition is not None and stop.reason is Reason.CONDITION:
+                self.ran += resource.header.scan - before
+                if conditions and stop.reason is Reason.CONDITION:
                     return True
         finally:
-            resource.waiting.until = None
+            resource.waiting.until = ()
         return False
 
     def told(self, what: str, condition: str) -> str:

@@ -41,7 +41,7 @@ class Project:
     files: dict[str, str]
     """Texts by their names in the project."""
     loaded: Loaded
-    conditions: dict[str, Condition] = field(default_factory=dict)
+    conditions: dict[tuple[str, bool], Condition] = field(default_factory=dict)
     """Those that were asked for, by their texts."""
 
     @staticmethod

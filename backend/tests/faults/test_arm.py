@@ -170,7 +170,7 @@ def test_the_end_of_a_run_and_what_is_armed_do_not_disturb_each_other(kind: Kind
     resource = Resource(Loaded.make(program(SOURCE), kind[0]), agenda=Schedule(kind[1]))
     until = compile_condition(resource.program, "Main.n = 30")
     assert isinstance(until, Condition)
-    resource.waiting.until = until
+    resource.waiting.until = (until,)
     resource.submit(arm(BATTERY, start=Start("condition", condition="Main.n = 12"), shape=Shape("for", 3)))
     stops = []
     while resource.header.scan < 50:

@@ -349,7 +349,7 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     def until(text: str) -> None:
         condition = compile_condition(timeline.resource.program, text)
         assert isinstance(condition, Condition)
-        timeline.resource.waiting.until = condition
+        timeline.resource.waiting.until = (condition,)
 
     def run() -> int:
         for _ in range(1000):
@@ -374,12 +374,12 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     timeline.submit(Write("Ada", "Main.n", "6"))
     scan, n = run(), value(timeline.resource, "Main.n")
     assert (scan, n) == (598, 300)
-    timeline.resource.waiting.until = None
+    timeline.resource.waiting.until = ()
     while timeline.live_scan < 898:  # a checkpoint may be due before
         timeline.run(898 - timeline.live_scan)
     until("Main.first = 1")
     assert not to_program(timeline, 1, COUNTER)
-    assert timeline.resource.waiting.until is None, "there is no such variable in this program"
+    assert timeline.resource.waiting.until == (), "there is no such variable in this program"
     timeline.close()
 
 
@@ -390,7 +390,7 @@ def test_a_condition_does_not_hold_up_the_way_into_the_past(
     timeline = begun(tmp_path / "run", engine=engine)
     condition = compile_condition(timeline.resource.program, "Main.n >= 0")
     assert isinstance(condition, Condition)
-    timeline.resource.waiting.until = condition
+    timeline.resource.waiting.until = (condition,)
     assert timeline.run(10).reason is Reason.CONDITION
     assert timeline.live_scan == 1
     advance(timeline, 99)

@@ -72,8 +72,25 @@ def test_a_program_that_does_not_run_shows_nothing(plc):
     from scanbench.testing.plc import PlcFailure
     plc.mode("PROGRAM")
     for look, condition in ((plc.always, "NOT motor"), (plc.never, "motor")):
-        with pytest.raises(PlcFailure, match="the PLC is in mode PROGRAM, so the program ran in none of the 50 scans"):
+        with pytest.raises(PlcFailure, match="was not tested: no program ran in the scans"):
             look(50, condition)
+
+def test_a_program_that_an_error_stopped_shows_nothing(plc):
+    from scanbench.testing.plc import PlcFailure
+    plc.raise_error("memory-error")
+    plc.run()
+    with pytest.raises(PlcFailure, match="was not tested: no program ran in the scans 1 to 50"):
+        plc.never(50, "Main.n > 100")
+
+def test_what_has_no_value_shows_nothing(plc):
+    from scanbench.testing.plc import PlcFailure
+    for look, condition, last in ((plc.always, "10 / (Main.n - 15) < 100", 14), (plc.never, "Main.n = 10 / (Main.n - 16)", 15)):
+        with pytest.raises(PlcFailure, match=f"has no value .* after scan {last},"):
+            look(50, condition)
+    with pytest.raises(PlcFailure, match="has no value"):
+        plc.holds("Main.n = 10 / (Main.n - 16)")
+    with pytest.raises(PlcFailure, match="within 1 scans.* In the last one it had no value"):
+        plc.within_scans(1, "10 / (Main.n - 17) = 3")
 
 def test_refused(plc):
     from scanbench.testing.plc import PlcRefused
@@ -112,7 +129,7 @@ def folder(pytester: pytest.Pytester) -> Path:
 @pytest.mark.parametrize("engine", ["native", "reference", "both"])
 def test_what_holds_passes(pytester: pytest.Pytester, folder: Path, engine: str) -> None:
     pytester.makepyfile(test_good=GOOD)
-    pytester.runpytest_inprocess("--scanbench-engine", engine).assert_outcomes(passed=8)
+    pytester.runpytest_inprocess("--scanbench-engine", engine).assert_outcomes(passed=10)
     assert not (folder / "scanbench-runs").exists()
 
 

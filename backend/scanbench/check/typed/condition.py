@@ -72,11 +72,13 @@ class Condition:
 
     Its places are of Base.IMAGE (reached through slots and references where a path has in-outs or references), it has no
     effects, and whoever evaluates it takes a trap inside (an index outside, a null reference, a division by zero) for
-    FALSE. It may be evaluated between any two scans, as often as one likes.
+    `unknown`. It may be evaluated between any two scans, as often as one likes.
     """
 
     text: str
     expr: Expr
+    unknown: bool = False
+    """Whether it holds where it has no value."""
 
 
 @dataclass(frozen=True, slots=True)

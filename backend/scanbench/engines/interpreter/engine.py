@@ -136,7 +136,7 @@ class ReferenceEngine(Engine):
             try:
                 return bool(value(0))
             except Trapped:
-                return False
+                return condition.unknown
 
         return holds
 

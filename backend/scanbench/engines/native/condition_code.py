@@ -17,14 +17,14 @@ SCRATCH = '@"t.condition{n}"'
 
 ENTRY = """\
 define i32 @condition(ptr {image}) #0 {{
-; 1 where one of them holds. A trap is the number of a site, which is positive, and FALSE
+; 1 where one of them holds. A trap is the number of a site, which is positive
 {calls}  ret i32 0
 holds:
   ret i32 1
 }}"""
 CALL = """\
   %status{n} = call i32 @evaluate{n}(ptr %img)
-  %holds{n} = icmp slt i32 %status{n}, 0
+  %holds{n} = icmp {holds} i32 %status{n}, 0
   br i1 %holds{n}, label %holds, label %next{n}
 next{n}:
 """
@@ -56,6 +56,8 @@ def emit_condition(program: Program, *conditions: Condition) -> str:
         if text.scratch_size:
             unit.reserve(pou, scratch, text.scratch_size)
         unit.module.add(text.text())
-    calls = "".join(CALL.format(n=number) for number in range(len(conditions)))
+    calls = "".join(
+        CALL.format(n=number, holds="ne" if each.unknown else "slt") for number, each in enumerate(conditions)
+    )
     unit.module.add(ENTRY.format(image=image, calls=calls))
     return unit.module.text()
