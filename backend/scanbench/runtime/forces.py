@@ -273,7 +273,10 @@ class ForceSeveral(Command):
     def _meant(self, view: View, forced: _Forced) -> Iterator[Force | Release]:
         keys = set(forced.forces)
         for change in self.changes:
-            settled = change.among(view, forced) if isinstance(change, Release) else change.settled(view)
+            if isinstance(change, Release):  # of what this command forced before, too
+                settled: Command = change if _key(change.path or "") in keys else change.among(view, forced)
+            else:
+                settled = change.settled(view)
             assert isinstance(settled, Force | Release)
             key = _key(settled.path or "")
             if isinstance(settled, Force):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from scanbench.check.typed.condition import Condition
 from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.testing.command_text import read_command
-from scanbench.testing.plc import NO_VALUE, Plc, PlcFailure, PlcRefused
+from scanbench.testing.plc import NO_VALUE, Plc, PlcFailure, PlcRefused, untested
 from scanbench.testing.raising import BadCommand
 from scanbench.testing.said import with_near
 
@@ -57,7 +57,7 @@ class _Player:
         )
         end = min([self._scenario.scans, *(each for each in bounds if each > now)])
         try:
-            self._plc.run_to(end, [self._interesting(each) for each in self._open if each.first <= now])
+            self._plc.run_to_one([self._interesting(each) for each in self._open if each.first <= now], end - now)
         except PlcFailure as failure:
             return Failed("trap", self._plc.scan, str(failure))
         return None
@@ -77,7 +77,7 @@ class _Player:
                 said = f"`{each.condition}` {word} after {now} scans"
                 return Failed(str(each), now, self._plc.told(said, each.condition))
             if each.kind != "holds" and now >= each.last and self._plc.ran == begin:
-                return Failed(str(each), now, f"`{each.condition}` {self._plc.untested(each.first)}")
+                return Failed(str(each), now, untested(each.condition, each.first, now))
             if now >= each.last or (each.kind == "holds" and held):
                 self._open.remove(each)
         return None
@@ -86,7 +86,8 @@ class _Player:
         """When the PLC has to be looked at."""
         if each.kind == "holds":
             return self._plc.condition(each.condition)
-        return self._plc.stops(each.condition, "NOT ({})" if each.kind == "always" else "{}")
+        wrong = f"NOT ({each.condition})" if each.kind == "always" else each.condition
+        return self._plc.condition(wrong, unknown=True)
 
     def _enter(self) -> Failed | None:
         while self._steps and self._steps[0].at <= self._plc.scan:

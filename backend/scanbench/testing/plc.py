@@ -183,11 +183,7 @@ class Plc:
 
     def run(self, scans: int = 1) -> None:
         """Runs so many scans; they pass without the program while it is stopped. `PlcFailure` when it traps."""
-        self._run_until((), scans)
-
-    def run_to(self, scan: int, conditions: Sequence[Condition]) -> bool:
-        """Runs until one of the conditions holds after a scan, or up to a scan: whether one holds."""
-        return self._run_until(conditions, scan - self.scan)
+        self.run_to_one((), scans)
 
     def run_until(self, condition: str, most: int = 10_000) -> int:
         """Runs until a condition holds after a scan: how many scans that took. `PlcFailure` after so many."""
@@ -196,7 +192,7 @@ class Plc:
     def within_scans(self, most: int, condition: str) -> int:
         """The condition holds now, or after one of the next `most` scans, where it stays: how many scans that took."""
         begin = self.scan
-        if not self.truth(condition) and not self._run_until((self.condition(condition),), most):
+        if not self.truth(condition) and not self.run_to_one((self.condition(condition),), most):
             last = " In the last one it had no value." if self.truth(condition) is None else ""
             what = f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}"
             raise PlcFailure(self.told(f"{what}.{last}" if last else what, condition))
@@ -219,25 +215,16 @@ class Plc:
             raise PlcRefused(f"`{condition}` is to be looked at after {scans} scans, so never; give 1 or more.")
         self.condition(condition)  # what is wrong with it is told of what was written
         begin, ran = self.scan, self.ran
-        if self._run_until((self.stops(condition, wrong),), scans):
+        if self.run_to_one((self.condition(wrong.format(condition), unknown=True),), scans):
             last = self.scan - 1
             found = NO_VALUE if self.truth(condition) is None else what
             raise PlcFailure(
                 self.told(f"`{condition}` {found} after scan {last}, the {last - begin + 1}. of {scans}", condition)
             )
         if self.ran == ran:
-            raise PlcFailure(f"`{condition}` {self.untested(begin)}")
+            raise PlcFailure(untested(condition, begin, self.scan))
 
-    def stops(self, condition: str, wrong: str) -> Condition:
-        """When a condition is wrong, as `NOT ({})` or `{}` says, or has no value."""
-        return self.condition(wrong.format(condition), unknown=True)
-
-    def untested(self, begin: int) -> str:
-        """What is said of a condition that was looked at since this scan, where the program ran in none."""
-        why = "mode PROGRAM, or an error that stops the program"
-        return f"was not tested: no program ran in the scans {begin} to {self.scan - 1} ({why})."
-
-    def _run_until(self, conditions: Sequence[Condition], scans: int) -> bool:
+    def run_to_one(self, conditions: Sequence[Condition], scans: int) -> bool:
         """Runs until one of these holds after a scan, at most so many scans; whether one does."""
         resource = self._resource
         end = resource.header.scan + scans
@@ -263,6 +250,12 @@ class Plc:
     def told(self, what: str, condition: str) -> str:
         """A sentence about a condition, and what its variables are worth now."""
         return f"{what}. {_values(self._resource, condition)}".rstrip()
+
+
+def untested(condition: str, begin: int, end: int) -> str:
+    """What is said of a condition that was looked at in scans in none of which the program ran."""
+    why = "mode PROGRAM, or an error that stops the program"
+    return f"`{condition}` was not tested: no program ran in the scans {begin} to {end - 1} ({why})."
 
 
 def _must_not_trap(resource: Resource) -> None:

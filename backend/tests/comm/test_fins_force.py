@@ -19,6 +19,7 @@ from tests.comm.bench import LocalDoor, machine
 
 SOURCE = "PROGRAM Main VAR n : INT; lamp AT CIO 100.03 : BOOL; END_VAR n := n + 1; END_PROGRAM"
 RESET, SET, RELEASE = "0000", "0001", "FFFF"
+RELEASE_OFF, RELEASE_ON = "8000", "8001"
 D = "02"
 
 
@@ -54,6 +55,17 @@ def test_all_of_a_frame_is_one_entry_of_one_author() -> None:
     area = resource.program.layout.areas["CIO"]
     assert resource.memory[area + 200] == 0x12, "what was on stays after its release"
     assert ENTRIES.unpack(ENTRIES.pack(entry)) == entry
+
+
+def test_a_bit_is_released_and_off_or_on() -> None:
+    resource = machine(source=SOURCE)
+    assert isinstance(resource.submit(Force("Ada", "Main.lamp", "TRUE")), Entry)
+    assert force(resource, (SET, bit(1))) == End.OK
+    assert force(resource, (RELEASE_OFF, bit(1)), (RELEASE_OFF, bit(3)), (RELEASE_ON, bit(4))) == End.OK
+    assert forced(resource) == {}
+    resource.run(3)
+    area = resource.program.layout.areas["CIO"]
+    assert resource.memory[area + 200] == 0x10
 
 
 def test_where_one_cannot_be_none_is() -> None:

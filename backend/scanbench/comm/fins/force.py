@@ -7,8 +7,9 @@ from scanbench.comm.fins.outcome import enter
 from scanbench.runtime.forces import Force, ForceSeveral, Release
 
 _ENTRY = 6
-_RESET, _SET = 0x0000, 0x0001
-_RELEASES = (0x8000, 0x8001, 0xFFFF)
+_HELD = {0x0000: "FALSE", 0x0001: "TRUE"}
+_RELEASED = {0x8000: "FALSE", 0x8001: "TRUE", 0xFFFF: None}
+"""What the bit is then; None: as it was."""
 
 
 async def on_force(door: Door, body: bytes) -> bytes:
@@ -16,7 +17,7 @@ async def on_force(door: Door, body: bytes) -> bytes:
     count = int.from_bytes(body[:2], "big")
     if len(body) != 2 + count * _ENTRY:
         raise Refused(End.NOT_AS_MANY)
-    changes = tuple(_change(door, body[at : at + _ENTRY]) for at in range(2, len(body), _ENTRY))
+    changes = tuple(each for at in range(2, len(body), _ENTRY) for each in _changes(door, body[at : at + _ENTRY]))
     await _permitted(door)
     await enter(door, ForceSeveral(door.author, changes))
     return b""
@@ -34,15 +35,17 @@ async def _permitted(door: Door) -> None:
         raise Refused(End.NOT_IN_RUN)
 
 
-def _change(door: Door, entry: bytes) -> Force | Release:
+def _changes(door: Door, entry: bytes) -> tuple[Force | Release, ...]:
     what = int.from_bytes(entry[:2], "big")
     place = element(door.model, entry[2], int.from_bytes(entry[3:5], "big"), entry[5])
     path = _path(door, place)
-    if what in _RELEASES:
-        return Release(door.author, path)
-    if what not in (_RESET, _SET):
+    if what in _HELD:
+        return (Force(door.author, path, _HELD[what]),)
+    if what not in _RELEASED:
         raise Refused(End.PARAMETER)
-    return Force(door.author, path, "TRUE" if what == _SET else "FALSE")
+    release, value = Release(door.author, path), _RELEASED[what]
+    # A force gives its value at once, and that stays when it is released again in the same seam.
+    return (release,) if value is None else (release, Force(door.author, path, value), release)
 
 
 def _path(door: Door, place: Element) -> str:
