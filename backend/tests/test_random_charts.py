@@ -5,14 +5,10 @@ from dataclasses import dataclass, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.check.build import check_sources
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
 from scanbench.syntax.chart import TIMED
 from tests.amounts import amount
-from tests.caseformat import MODELS, find, first_difference, write
+from tests.batches import Drawn, collect
 
-MODEL = MODELS["GENERIC-IEC"]
 INPUTS, OUTPUTS, ACTIONS = tuple("abc"), tuple("pqr"), ("Mix", "Fill")
 SCANS, SCAN_MS = 25, 10
 QUALIFIERS = ("N", "N", "S", "R", "P", "P0", "P1", "L", "D", "SD", "DS", "SL")
@@ -198,31 +194,28 @@ def text_of(machine: Machine) -> str:
     return f"PROGRAM Main\nVAR {names} : BOOL; {counts} : INT; END_VAR\n{steps}{actions}{lines}\nEND_PROGRAM\n"
 
 
-@settings(max_examples=amount(1000, 15), deadline=None)
-@given(charts())
-def test_the_engines_and_the_rules_agree(made: tuple[Machine, list[dict[str, int]]]) -> None:
+def drawn(made: tuple[Machine, list[dict[str, int]]]) -> Drawn:
     machine, sets = made
-    source = text_of(machine)
-    checked = check_sources({"main.st": source}, MODEL)
-    program = checked.program
-    assert program is not None, f"{source}\n{checked.problems}"
-    memories = [bytearray(program.initial_image) for _ in range(2)]
-    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
     values = dict.fromkeys((*INPUTS, *OUTPUTS, *(f"{kind}{each}" for each in ACTIONS for kind in "nq")), 0)
-    for scan, given_values in enumerate(sets):
-        for name, value in given_values.items():
-            values[name] = value
-            for memory in memories:
-                write(program, f"Main.{name}", str(bool(value)).upper(), memory)
-        for engine in engines:
-            engine.run(1)
-        assert not first_difference(program, *memories), source
+
+    def expected(scan: int) -> dict[str, str]:
+        values.update(sets[scan])
         machine.evaluate(values, scan * SCAN_MS)
         wanted = {
             name: str(bool(value)).upper() if name in (*INPUTS, *OUTPUTS) else str(value)
             for name, value in values.items()
         }
         wanted |= {f"S{step}.X": str(step in machine.active).upper() for step in range(len(machine.steps))}
-        wanted |= {f"S{step}.T": f"T#{ms}ms" if ms else "T#0s" for step, ms in machine.times.items()}
-        shown = {name: find(program, f"Main.{name}", memories[0])[2] for name in wanted}
-        assert shown == wanted, f"scan {scan}\n{source}"
+        return wanted | {f"S{step}.T": f"T#{ms}ms" if ms else "T#0s" for step, ms in machine.times.items()}
+
+    written = [{name: str(bool(value)).upper() for name, value in each.items()} for each in sets]
+    return Drawn(text_of(machine), written, expected)
+
+
+BATCH: list[Drawn] = []
+
+
+@settings(max_examples=amount(1000, 15), deadline=None)
+@given(charts())
+def test_the_engines_and_the_rules_agree(made: tuple[Machine, list[dict[str, int]]]) -> None:
+    collect(BATCH, drawn(made))

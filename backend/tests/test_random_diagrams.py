@@ -6,13 +6,9 @@ from dataclasses import dataclass, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.check.build import check_sources
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
 from tests.amounts import amount
-from tests.caseformat import MODELS, find, first_difference, write
+from tests.batches import Drawn, collect
 
-MODEL = MODELS["GENERIC-IEC"]
 BOOLS, INTS = tuple("abcd"), tuple("xyz")
 SCANS = 5
 Values = dict[str, int]
@@ -133,28 +129,29 @@ def diagrams(draw: st.DrawFn) -> tuple[str, list[Callable[[Values], None]], list
     return source, [run for _, run in lines], sets, list(loops)
 
 
-@settings(max_examples=amount(1000, 20), deadline=None)
-@given(diagrams())
-def test_the_engines_and_the_evaluation_agree(
-    made: tuple[str, list[Callable[[Values], None]], list[Values], list[str]],
-) -> None:
+Made = tuple[str, list[Callable[[Values], None]], list[Values], list[str]]
+
+
+def drawn(made: Made) -> Drawn:
     source, runs, sets, loops = made
-    program = check_sources({"main.st": source}, MODEL).program
-    assert program is not None, source
-    memories = [bytearray(program.initial_image) for _ in range(2)]
-    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
     values: Values = dict.fromkeys((*BOOLS, *INTS, *loops), 0)
-    for scan, given_values in enumerate(sets):
-        for name, value in given_values.items():
-            values[name] = value
-            for memory in memories:
-                write(program, f"Main.{name}", str(bool(value)).upper() if name in BOOLS else str(value), memory)
-        for engine in engines:
-            engine.run(1)
-        assert not first_difference(program, *memories), source
+
+    def shown(name: str, value: int) -> str:
+        return str(bool(value)).upper() if name in BOOLS else str(value)
+
+    def expected(scan: int) -> dict[str, str]:
+        values.update(sets[scan])
         for run in runs:
             run(values)
-        for name in (*BOOLS, *INTS):
-            shown = find(program, f"Main.{name}", memories[0])[2]
-            expected = str(bool(values[name])).upper() if name in BOOLS else str(values[name])
-            assert shown == expected, f"scan {scan}: {name}\n{source}"
+        return {name: shown(name, values[name]) for name in (*BOOLS, *INTS)}
+
+    return Drawn(source, [{name: shown(name, value) for name, value in each.items()} for each in sets], expected)
+
+
+BATCH: list[Drawn] = []
+
+
+@settings(max_examples=amount(1000, 20), deadline=None)
+@given(diagrams())
+def test_the_engines_and_the_evaluation_agree(made: Made) -> None:
+    collect(BATCH, drawn(made))

@@ -6,13 +6,9 @@ from dataclasses import dataclass, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.check.build import check_sources
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
 from tests.amounts import amount
-from tests.caseformat import MODELS, find, first_difference, write
+from tests.batches import Drawn, collect
 
-MODEL = MODELS["GENERIC-IEC"]
 VARIABLES = tuple("abcdefgh")
 SCANS = 6
 
@@ -141,25 +137,23 @@ def diagrams(draw: st.DrawFn) -> tuple[str, list[Run], list[dict[str, bool]]]:
     return source, runs, sets
 
 
+def drawn(made: tuple[str, list[Run], list[dict[str, bool]]]) -> Drawn:
+    source, runs, sets = made
+    state = State(dict.fromkeys(VARIABLES, False))
+
+    def expected(scan: int) -> dict[str, str]:
+        state.values.update(sets[scan])
+        for run in runs:
+            run(state, True)
+        return {name: str(value).upper() for name, value in state.values.items()}
+
+    return Drawn(source, [{name: str(value).upper() for name, value in each.items()} for each in sets], expected)
+
+
+BATCH: list[Drawn] = []
+
+
 @settings(max_examples=amount(1000, 25), deadline=None)
 @given(diagrams())
 def test_the_engines_and_the_evaluation_agree(made: tuple[str, list[Run], list[dict[str, bool]]]) -> None:
-    source, runs, sets = made
-    checked = check_sources({"main.st": source}, MODEL)
-    assert checked.program is not None, "\n".join([*map(str, checked.problems), source])
-    program = checked.program
-    memories = [bytearray(program.initial_image) for _ in range(2)]
-    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
-    state = State(dict.fromkeys(VARIABLES, False))
-    for scan, values in enumerate(sets):
-        for name, value in values.items():
-            state.values[name] = value
-            for memory in memories:
-                write(program, f"Main.{name}", str(value).upper(), memory)
-        for engine in engines:
-            engine.run(1)
-        assert not first_difference(program, *memories), source
-        for run in runs:
-            run(state, True)
-        found = {name: find(program, f"Main.{name}", memories[0])[2] == "TRUE" for name in VARIABLES}
-        assert found == state.values, f"scan {scan}\n{source}"
+    collect(BATCH, drawn(made))
