@@ -6,6 +6,7 @@ import { expect, test } from '../fixtures/test';
 const BATCH = `FUNCTION_BLOCK Batch
 VAR_INPUT start, empty : BOOL; level : INT; END_VAR
 VAR_OUTPUT inlet, heater : BOOL; END_VAR
+VAR rounds : INT; END_VAR
 INITIAL_STEP Idle: END_STEP
 STEP Fill:
     inlet(N);
@@ -13,7 +14,12 @@ END_STEP
 STEP Heat:
     heater(N);
 END_STEP
-STEP Mix: END_STEP
+STEP Mix:
+    Count(N);
+END_STEP
+ACTION Count:
+    rounds := rounds + 1;
+END_ACTION
 TRANSITION FROM Idle TO (Fill, Heat) := start; END_TRANSITION
 TRANSITION FROM (Fill, Heat) TO Mix := level >= 80; END_TRANSITION
 TRANSITION FROM Mix TO Idle := empty; END_TRANSITION
@@ -71,6 +77,13 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
     await page.keyboard.press('F9');
     await page.keyboard.press('F5');
     await expect(sheet.getByText('next element')).toHaveCount(0);
+  });
+
+  await test.step('its text has the values of actions and transitions at the ends of their lines', async () => {
+    await page.getByRole('radio', { name: 'Both' }).click();
+    await expect(page.locator('.inlinerow').filter({ hasText: 'rounds' })).not.toHaveCount(0);
+    await expect(page.locator('.inlinerow').filter({ hasText: /level\s*0/ })).not.toHaveCount(0);
+    await page.getByRole('radio', { name: 'Drawing' }).click();
   });
 
   await test.step('a network beside it is drawn, with what its wires have', async () => {

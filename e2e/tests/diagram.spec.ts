@@ -224,6 +224,36 @@ test('a chart is drawn by keys from its first step, is built, and runs @nightly'
     await expect(option('Step Fill1')).toHaveCount(0);
   });
 
+  await test.step('an action is dragged to a different step, a step after a different one, and several steps are put in', async () => {
+    const drag = async (from: string, to: string) => {
+      await option(from).hover();
+      await page.mouse.down();
+      await option(to).hover();
+      await expect(sheet.locator('[data-drop]')).toHaveCount(1);
+      await page.mouse.up();
+    };
+    await drag('Action on, N, of step Fill', 'Initial step Init');
+    await expect(option('Action on, N, of step Init')).toBeVisible();
+    await expect(option('Action on, N, of step Fill')).toHaveCount(0);
+    await keyboard.press('Control+Z');
+    await option('Transition from Fill, Warm to Init: halt').click();
+    await key('s', 'Last');
+    await drag('Step Last', 'Transition from Init to Fill, Warm: go');
+    await expect(option('Transition from Init to Last: go')).toBeVisible();
+    await expect(option('Transition from Fill, Warm to Init: halt')).toBeVisible();
+    for (let edits = 0; edits < 2; edits += 1) await keyboard.press('Control+Z');
+    await expect(option('Step Last')).toHaveCount(0);
+    await option('Step Fill').click();
+    await option('Step Warm').click({ modifiers: ['Control'] });
+    await keyboard.press('Control+C');
+    await option('Transition from Fill, Warm to Init: halt').click();
+    await keyboard.press('Control+V');
+    await expect(option('Step Fill1')).toBeVisible();
+    await expect(option('Step Warm1')).toBeVisible();
+    await keyboard.press('Control+Z');
+    await expect(option('Step Fill1')).toHaveCount(0);
+  });
+
   await test.step('with the mouse: a step that is chosen, an action by its button, and what is deleted', async () => {
     const tool = (name: string) =>
       page.getByRole('toolbar', { name: 'Edit the drawing' }).getByRole('button', { name });

@@ -186,6 +186,61 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
   });
 
+  await test.step('a pin of a box has a field of its own: a double click opens it, and Tab goes from pin to pin', async () => {
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    await keyboard.press('f');
+    await keyboard.type('TON');
+    await keyboard.press('Enter');
+    await expect(sheet.getByRole('combobox')).toHaveValue('ton1');
+    await keyboard.type('late');
+    await keyboard.press('Tab');
+    const field = page.getByRole('combobox', { name: 'Input PT of late: nothing is connected here' });
+    await expect(field).toBeFocused();
+    await keyboard.type('T#2s');
+    await keyboard.press('Enter');
+    const timer = sheet.getByRole('option', { name: 'Box late' });
+    await expect(timer).toContainText('T#2s');
+    await expect(sheet.getByText('not built yet: it did not run')).toHaveCount(1);
+    const place = await timer.getByText('T#2s').boundingBox();
+    if (!place) throw new Error('no pin');
+    await page.mouse.dblclick(place.x + place.width / 2, place.y + place.height / 2);
+    await expect(page.getByRole('combobox', { name: 'Input PT of late: T#2s' })).toBeFocused();
+    await keyboard.press('Control+A');
+    await keyboard.type('T#1h2m3s');
+    await keyboard.press('Enter');
+    await expect(timer).toContainText('T#1h2m3s');
+    for (let edits = 0; edits < 3; edits += 1) await keyboard.press('Control+Z');
+    await expect(timer).toHaveCount(0);
+  });
+
+  await test.step('a variable has a different name in all files: Ctrl+F2', async () => {
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    await keyboard.press('Control+F2');
+    await page.getByRole('dialog').getByRole('textbox').fill('begin');
+    await keyboard.press('Enter');
+    await expect(sheet.getByRole('option', { name: 'Contact begin', exact: true })).toBeVisible();
+    await expect(sheet.getByRole('option', { name: 'Contact go' })).toHaveCount(0);
+  });
+
+  await test.step('a whole rung is dragged by its number', async () => {
+    await sheet.getByRole('option', { name: 'Coil on' }).click();
+    await keyboard.press('Control+I');
+    await keyboard.press('t');
+    await keyboard.type('The other');
+    await keyboard.press('Enter');
+    const groups = sheet.getByRole('group');
+    await expect(groups.nth(1)).toContainText('The other');
+    await groups.nth(1).locator('.no').hover();
+    await page.mouse.down();
+    await groups.first().locator('.hd').hover();
+    await expect(sheet.locator('.dropabove')).toHaveCount(1);
+    await page.mouse.up();
+    await expect(groups.first()).toContainText('The other');
+    await expect(groups.nth(1).getByRole('option', { name: 'Coil on' })).toBeVisible();
+    for (let edits = 0; edits < 3; edits += 1) await keyboard.press('Control+Z');
+    await expect(groups).toHaveCount(1);
+  });
+
   await test.step('the only rung of a block is emptied, not taken away with its drawing', async () => {
     await keyboard.press('Control+Delete');
     await expect(sheet.getByRole('option')).toHaveCount(0);

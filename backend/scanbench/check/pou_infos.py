@@ -7,9 +7,10 @@ from scanbench.check.declare.collect import globals_of
 from scanbench.check.declare.names import qualified
 from scanbench.public import Public
 from scanbench.syntax import tree
+from scanbench.syntax.parse_pou import ACTION
 
 PouInfoKind = Literal[
-    "program", "function_block", "function", "class", "interface", "method", "property", "type", "global"
+    "program", "function_block", "function", "class", "interface", "method", "action", "property", "type", "global"
 ]  # fmt: skip
 _POU_KINDS: dict[str, PouInfoKind] = {kind: kind for kind in get_args(PouInfoKind)}
 
@@ -46,9 +47,11 @@ def pou_infos(parsed: list[tree.File]) -> list[PouInfo]:
 
 
 def _methods(owner: str, pou: tree.PouDeclaration) -> list[PouInfo]:
-    """Methods and properties; the two halves of a property are one."""
+    """Methods, actions and properties; the two halves of a property are one."""
     made: dict[str, PouInfo] = {}
     for each in pou.methods:
         kind: PouInfoKind = "method" if each.kind == "method" else "property"
+        if ACTION in each.modifiers:
+            kind = "action"
         made.setdefault(each.name.upper(), PouInfo(f"{owner}.{each.name}", kind, each.span.file, each.span.line))
     return list(made.values())

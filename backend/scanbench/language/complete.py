@@ -23,6 +23,8 @@ from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor, Unexpected
 from scanbench.syntax.lexer import KEYWORDS, tokenize
 from scanbench.syntax.parse_expression import expression
+from scanbench.syntax.parse_file import XML_ENDINGS
+from scanbench.syntax.parse_pou import ENDS
 from scanbench.syntax.source import Source
 
 ItemKind = Literal[
@@ -49,6 +51,8 @@ BLOCKS = {
 POU_KINDS: dict[str, ItemKind] = {
     "function": "function", "function_block": "block", "class": "class", "interface": "interface", "program": "program",
 }  # fmt: skip
+CLOSING = (*ENDS.values(), "END_METHOD", "END_PROPERTY", "END_ACTION")
+"""Words that a file of TwinCAT says by its XML."""
 NEAREST, NEAR, VISIBLE, FAR, WORDS = range(5)
 
 
@@ -84,11 +88,12 @@ def complete(reading: Reading, file: str, position: int) -> list[Item]:
     if keyword.startswith("VAR") or keyword in ("STRUCT", "TYPE", "UNION"):
         return list(_types(reading)) if ":" in line and ":=" not in line else list(_declaring(line, reading))
     if around is None:
-        return [Item(word, "snippet", insert=text, rank=NEAREST) for word, text in BLOCKS.items()] + list(_keywords())
+        blocks = [] if file.lower().endswith(XML_ENDINGS) else BLOCKS.items()
+        return [*(Item(word, "snippet", insert=text, rank=NEAREST) for word, text in blocks), *_keywords(file)]
     body = reading.body(around)
     start = position - len(match.group()) if (match := WORD.search(line)) else position
     items = list(arguments(reading, body, around, text, start)) if body is not None else []
-    return [*items, *_visible(reading, body)]
+    return [*items, *_visible(reading, body, file)]
 
 
 # ---- after a point --------------------------------------------------------------------------------------------------
@@ -331,7 +336,7 @@ def _method(reading: Reading, body: Body, around: Around, callee: str) -> Pou | 
     return None if found is None else found.pou
 
 
-def _visible(reading: Reading, body: Body | None) -> Iterator[Item]:
+def _visible(reading: Reading, body: Body | None, file: str) -> Iterator[Item]:
     checker = reading.project.checker
     if body is not None:
         scope = body.scope
@@ -360,11 +365,12 @@ def _visible(reading: Reading, body: Body | None) -> Iterator[Item]:
         yield Item(pou.name, "function", "standard", Symbol("pou", "", pou.name.upper()), f"{pou.name}($0)", FAR)
     for word, snippet in STATEMENTS.items():
         yield Item(word, "snippet", insert=snippet, rank=WORDS)
-    yield from _keywords()
+    yield from _keywords(file)
 
 
-def _keywords() -> Iterator[Item]:
-    for word in sorted(KEYWORDS):
+def _keywords(file: str) -> Iterator[Item]:
+    closing = CLOSING if file.lower().endswith(XML_ENDINGS) else ()
+    for word in sorted(KEYWORDS.difference(closing)):
         yield Item(word, "keyword", rank=WORDS)
 
 

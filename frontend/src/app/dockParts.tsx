@@ -145,6 +145,7 @@ const ICONS: Record<Pou["kind"], IconName> = {
   class: "fb",
   interface: "struct",
   method: "fn",
+  action: "fn",
   property: "fn",
   type: "struct",
   global: "globe",

@@ -7379,7 +7379,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "program" | "function_block" | "function" | "class" | "interface" | "method" | "property" | "type" | "global";
+            kind: "program" | "function_block" | "function" | "class" | "interface" | "method" | "action" | "property" | "type" | "global";
             /** Line */
             line: number;
             /**

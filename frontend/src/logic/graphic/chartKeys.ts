@@ -24,13 +24,13 @@ import type { Span } from "./tree";
 type ChartElement = ChartStep | ChartTransition | ChartAction;
 
 /** A chart as it is edited. */
-interface Written {
+export interface Written {
   found: Found;
   text: string;
   chart: Chart;
 }
 
-function chartOf(found: Found, text: string): Written | null {
+export function chartOf(found: Found, text: string): Written | null {
   const chart = readChart({ ...found, text });
   return chart.kind === "chart" ? { found, text, chart } : null;
 }
@@ -73,26 +73,27 @@ const DEEDS: Record<string, Deed> = {
   Backspace: remove,
 };
 
-const same = (a: string, b: string) => keyOf(a) === keyOf(b);
-const has = (names: readonly string[], name: string) => names.some((each) => same(each, name));
-const listed = (names: readonly string[]) => (names.length === 1 ? (names[0] ?? "") : `(${names.join(", ")})`);
-const blanksOf = ({ found, text }: Written, { at }: Span) =>
+export const same = (a: string, b: string) => keyOf(a) === keyOf(b);
+export const has = (names: readonly string[], name: string) => names.some((each) => same(each, name));
+export const listed = (names: readonly string[]) => (names.length === 1 ? (names[0] ?? "") : `(${names.join(", ")})`);
+export const blanksOf = ({ found, text }: Written, { at }: Span) =>
   lineStartOf(text, at) === 0 ? found.indent : blanksAt(text, at);
-const stepOf = ({ chart }: Written, element: ChartElement) =>
+export const stepOf = ({ chart }: Written, element: ChartElement) =>
   element.kind === "step" ? element : element.kind === "action" ? stepNamed(chart, element.step) : undefined;
 const stepNamed = ({ steps }: Chart, wanted: string) => steps.find((each) => same(each.name, wanted));
 
 /** The edit with the cursor at the element that `is` finds; null where the text cannot be read then. */
-function edited({ found }: Written, text: string, is: (element: ChartElement) => boolean): Edit | null {
+export function edited({ found }: Written, text: string, is: (element: ChartElement) => boolean): Edit | null {
   const after = chartOf(found, text);
   const at = after ? elementsOf(after.chart).findIndex(is) : -1;
   return after && { text, place: at < 0 ? [0] : [at], naming: null };
 }
 
-const isStep = (wanted: string) => (element: ChartElement) => element.kind === "step" && same(element.name, wanted);
+export const isStep = (wanted: string) => (element: ChartElement) =>
+  element.kind === "step" && same(element.name, wanted);
 
 /** With the names of steps in a list changed by `change`. */
-const relisted = (
+export const relisted = (
   names: readonly string[],
   span: Span,
   change: (names: readonly string[]) => readonly string[],
@@ -100,7 +101,7 @@ const relisted = (
   ...span,
   text: listed(change(names)),
 });
-const instead = (old: string, wanted: string) => (names: readonly string[]) =>
+export const instead = (old: string, wanted: string) => (names: readonly string[]) =>
   names.map((each) => (same(each, old) ? wanted : each));
 
 /** The edit that a new step of any name makes, with the field for its name. */
@@ -222,14 +223,7 @@ function addAction(written: Written, element: ChartElement): Made {
   const { text } = written;
   const step = stepOf(written, element);
   if (!step) return null;
-  const word = text.slice(0, step.span.end).toUpperCase().lastIndexOf("END_STEP");
-  const start = lineStartOf(text, word);
-  const alone = text.slice(start, word).trim() === "";
-  const blanks = blanksOf(written, step.span);
-  const put = (action: string): Change =>
-    alone
-      ? { at: start, end: start, text: `${blanks}    ${action};\n` }
-      : { at: word, end: word, text: `\n${blanks}    ${action};\n${blanks}` };
+  const put = actionPut(written, step);
   const is = (each: ChartElement) =>
     each.kind === "action" && each.step === step.name && each.span.at > (step.actions.at(-1)?.span.at ?? 0);
   const made = edited(written, changed(text, [put(`${NOTHING}(N)`)]), is);
@@ -239,6 +233,19 @@ function addAction(written: Written, element: ChartElement): Made {
       naming: { value: "", ...actionField, taken: actionTaken(written, step.actions.length + 1, put, is) },
     }
   );
+}
+
+/** One more action in a step. */
+export function actionPut(written: Written, step: ChartStep): (action: string) => Change {
+  const { text } = written;
+  const word = text.slice(0, step.span.end).toUpperCase().lastIndexOf("END_STEP");
+  const start = lineStartOf(text, word);
+  const alone = text.slice(start, word).trim() === "";
+  const blanks = blanksOf(written, step.span);
+  return (action) =>
+    alone
+      ? { at: start, end: start, text: `${blanks}    ${action};\n` }
+      : { at: word, end: word, text: `\n${blanks}    ${action};\n${blanks}` };
 }
 
 const actionField = { offers: "bool" as const, example: "motor(N)" };
@@ -310,7 +317,7 @@ function renamed(written: Written, step: ChartStep, wanted: string, around: Arou
 }
 
 /** Without this element, and the line that is empty then. */
-function without(text: string, { at, end }: Span): Change {
+export function without(text: string, { at, end }: Span): Change {
   const start = lineStartOf(text, at);
   const rest = /^[ \t]*;?[ \t]*(?=\n|$)/.exec(text.slice(end));
   if (rest && start > 0 && text.slice(start, at).trim() === "")

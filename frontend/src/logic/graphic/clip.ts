@@ -1,6 +1,7 @@
 /** Elements and whole networks as the text that is copied, and what such a text is where it is put in. */
 
 import { chartEdit } from "./chartKeys";
+import { partsPut } from "./chartMove";
 import { readChart } from "./charts";
 import { at, diagramOf, lineAfter } from "./diagramEdit";
 import { readDiagram } from "./diagramRead";
@@ -95,12 +96,12 @@ function intoChart(found: Found, place: Place, text: string, around: Around): Ma
   const read = readChart({ ...found, text, closed: true });
   const [step, ...others] = read.kind === "chart" ? read.steps : [];
   if (read.kind === "chart" && (others.length > 0 || read.transitions.length > 0 || read.bodies.length > 0))
-    return UNFIT;
+    return partsPut(found, place, text, around) ?? UNFIT;
   const taken = (key: string, typed: string): Edit | null => {
     const made = chartEdit(found, key, place, around);
     return made && "naming" in made ? (made.naming?.taken(typed, around) ?? null) : null;
   };
-  if (!step) return taken("a", text.replace(/;$/, "")) ?? UNFIT;
+  if (!step) return actionsPut(found, place, text, around) ?? UNFIT;
   const name = around.names.has(step.name.toUpperCase())
     ? newName(step.name.replace(/\d+$/, ""), around.names)
     : step.name;
@@ -108,4 +109,16 @@ function intoChart(found: Found, place: Place, text: string, around: Around): Ma
   if (!made) return UNFIT;
   const body = text.slice(step.named.end, step.span.end);
   return { ...made, text: made.text.replace(new RegExp(`\\bSTEP ${name}:\\s*END_STEP`), () => `STEP ${name}${body}`) };
+}
+
+/** Actions into the step at the cursor, one a line; null where one of them does not fit there. */
+function actionsPut(found: Found, place: Place, text: string, around: Around): Edit | null {
+  let made: Edit | null = null;
+  for (const line of text.split("\n")) {
+    const now = made === null ? found : { ...found, text: made.text, body: { at: 0, end: made.text.length } };
+    const edit = chartEdit(now, "a", made?.place ?? place, around);
+    made = edit && "naming" in edit ? (edit.naming?.taken(line.trim().replace(/;$/, ""), around) ?? null) : null;
+    if (made === null) return null;
+  }
+  return made;
 }

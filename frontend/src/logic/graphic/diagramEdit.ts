@@ -131,6 +131,20 @@ export function swapped(text: string, first: DiagramItem, second: DiagramItem): 
   ]);
 }
 
+/** The line at one place of the order of execution in a different one; the lines between move by one. */
+export function reordered(text: string, from: number, to: number): string {
+  let made = text;
+  for (let at = from; at !== to; at += to > from ? 1 : -1) {
+    const items = diagramOf(made)?.items ?? [];
+    const [first, second] = [
+      items[Math.min(at, at + (to > from ? 1 : -1))],
+      items[Math.max(at, at + (to > from ? 1 : -1))],
+    ];
+    if (first && second) made = swapped(made, first, second);
+  }
+  return made;
+}
+
 /** What is before the value of an item: its target with `:=`, `S=` or `=`, and perhaps a type. */
 export function headOf({ span, named, inputs }: DiagramItem): { at: number; end: number } {
   return { at: span.at, end: named?.at ?? inputs[0]?.span.at ?? span.at };

@@ -1,4 +1,5 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, test } from "vitest";
+import { reordered } from "./diagramEdit";
 import { connected, diagramEdit } from "./diagramKeys";
 import { layOutDiagram } from "./diagramLayout";
 import { readDiagram } from "./diagramRead";
@@ -200,4 +201,10 @@ describe("a box that is put in", () => {
         if (a.x < b.x) expect(c.x).toBeLessThan(d.x);
       }
   });
+});
+
+test("a line that is dragged to a different place changes the order of those between, and no more", () => {
+  const text = "NETWORK\n    a := 1; // one\n    b := 2;\n    c := 3;\n    d := 4;\nEND_NETWORK";
+  expect(reordered(text, 0, 2)).toBe("NETWORK\n    b := 2; // one\n    c := 3;\n    a := 1;\n    d := 4;\nEND_NETWORK");
+  expect(reordered(reordered(text, 0, 2), 2, 0)).toBe(text);
 });

@@ -37,6 +37,8 @@ export interface Naming {
   value: string;
   offers: Offers;
   example?: string;
+  /** The pin of a box in a rung that is named. */
+  pin?: number;
   /** What of the head is named; an element without it. */
   head?: "label" | "title" | "comment";
   /** The edit with this text in the element; null where the text does not fit there. */
@@ -51,6 +53,12 @@ export interface Edit {
   naming: Naming | null;
   /** Variables that are declared with it. */
   declares?: readonly Declared[];
+}
+
+/** What is not connected or written yet, and the key that opens its field. */
+export interface Empty {
+  place: Place;
+  key: string;
 }
 
 export interface Declared {

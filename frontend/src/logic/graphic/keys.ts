@@ -1,7 +1,7 @@
 /** What a key does to a rung at the cursor: the keys of CX-Programmer and Sysmac where they have one. */
 
 import { NOTHING } from "./diagram";
-import { type Edit, type Made, withDeclared } from "./edit";
+import { type Edit, type Empty, type Made, withDeclared } from "./edit";
 import { elementOf, fieldText } from "./field";
 import { boxNaming } from "./ladderBox";
 import {
@@ -20,6 +20,7 @@ import {
   replace,
 } from "./ladderEdit";
 import type { Place } from "./ladderLayout";
+import { openPin, pinNaming, withPinValue } from "./ladderPins";
 import { readRung } from "./ladderRead";
 import { writeRung } from "./ladderWrite";
 import { type Found, networksIn } from "./networks";
@@ -30,6 +31,8 @@ interface Change extends Edited {
   fresh: boolean;
 }
 
+/** Before the number of a pin: the key that opens its field. */
+export const PIN = "Pin:";
 const NOWHERE = { at: 0, end: 0 };
 const box = (): Element => ({ kind: "box", result: null, callee: NOTHING, args: [], output: null, span: NOWHERE });
 
@@ -89,11 +92,12 @@ export function afterKey(key: string, path: Path, place: Place): Change | null {
   return made ? { ...made, fresh: fresh !== undefined } : null;
 }
 
-/** The place of the element at the cursor if something of it is not connected yet. */
-export function emptyInRung(found: Found, text: string, place: Place): Place | null {
+/** The pin of the box at the cursor that is not connected yet, and the key of its field. */
+export function emptyInRung(found: Found, text: string, place: Place): Empty | null {
   const read = readRung({ ...found, ...networksIn(text)[0], text });
   const element = read.kind === "rung" ? elementAt(read.path, place) : null;
-  return element?.kind === "box" && fieldText(element).includes(NOTHING) ? place : null;
+  const open = element?.kind === "box" ? openPin(element) : null;
+  return open === null ? null : { place, key: `${PIN}${open}` };
 }
 
 /** A rung whose text was read. */
@@ -111,16 +115,24 @@ export function rungEdit({ head, path, indent, comments }: Readable, key: string
   const place = wanted.length % 2 === 0 || elementAt(path, wanted) ? wanted : [];
   const made = afterKey(key, path, place);
   const names = key === "Enter" || key === "F2";
-  if (!made && !names) return null;
+  const pin = key.startsWith(PIN) ? Number(key.slice(PIN.length)) : null;
+  if (!made && !names && pin === null) return null;
   if (comments) return { refused: "graphic.comments" };
   const done = (after: Path, at: Place): Edit => ({ text: writeRung(head, after, indent), place: at, naming: null });
   const named = (after: Path, at: Place): Edit | null => {
     const element = elementAt(after, at);
     if (!element || element.kind === "parallel") return null;
     const { kind } = element;
+    if (element.kind === "box" && pin !== null) {
+      const naming = pinNaming(element, pin, (box) => done(replace(after, at, box), at));
+      return naming && { ...done(after, at), naming };
+    }
     const bool = kind === "contact" || kind === "coil";
     const taken = withDeclared((typed) => {
-      const read = elementOf(kind, typed);
+      // What is no box may be the value of the pin that is open.
+      const open = element.kind === "box" ? openPin(element) : null;
+      const filled = element.kind === "box" && open !== null ? withPinValue(element, open, typed) : null;
+      const read = elementOf(kind, typed) ?? filled;
       return read && done(replace(after, at, read), at);
     });
     if (made && kind === "box") {

@@ -1,10 +1,12 @@
 import { expect, test } from "vitest";
 import { writeElement } from "./args";
 import { type Around, type Box, type Edit, namesIn } from "./edit";
-import { rungEdit } from "./keys";
+import { emptyInRung, rungEdit } from "./keys";
 import { callOf } from "./ladderBox";
+import { pinAtPoint, spotOfPin } from "./ladderPins";
 import { readRung } from "./ladderRead";
 import { networksIn } from "./networks";
+import { Sheet } from "./sheet";
 
 const known = (name: string, kind: Box["kind"], inputs: readonly string[], more: Partial<Box> = {}): Box => ({
   ...{ name, kind, type: "", inputs, outputs: [], types: [], by_position: kind === "function", more: false },
@@ -70,4 +72,53 @@ test("a name with a type is declared, also after a mode", () => {
   const made = after("[a]", "/", [0], "/halt : BOOL");
   expect(bodyOf(made)).toBe("[a] [/halt]");
   expect(made.declares).toEqual([{ name: "halt", type: "BOOL" }]);
+});
+
+test.each([
+  ["T#2s", "wait(IN := ~, PT := T#2s).Q"],
+  ["TIME#1h2m", "wait(IN := ~, PT := TIME#1h2m).Q"],
+  ["16#FF", "wait(IN := ~, PT := 16#FF).Q"],
+  ["'a, (b'", "wait(IN := ~, PT := 'a, (b').Q"],
+  ["-1.5E3", "wait(IN := ~, PT := -1.5E3).Q"],
+  ["D#2020-01-02", "wait(IN := ~, PT := D#2020-01-02).Q"],
+  ["a + b", "wait(IN := ~, PT := a + b).Q"],
+])("an open pin takes %s, in its own field and in that of its box", (typed, written) => {
+  const body = "[a] wait(IN := ~, PT := ???).Q (b)";
+  expect(bodyOf(after(body, "Pin:1", [1], typed))).toBe(`[a] ${written} (b)`);
+  expect(bodyOf(after(body, "F2", [1], typed))).toBe(`[a] ${written} (b)`);
+});
+
+test.each(["", "a, b := c", "a)", "T#1s); x(", "// c"])("a pin does not take %s", (typed) => {
+  expect(() => after("wait(IN := ~, PT := ???).Q", "Pin:1", [0], typed)).toThrow("Pin:1");
+});
+
+test("a pin declares what it names, and the variable of a result is a pin, too", () => {
+  const made = after("wait(IN := ~, PT := ???).Q", "Pin:1", [0], "late : TIME");
+  expect(bodyOf(made)).toBe("wait(IN := ~, PT := late).Q");
+  expect(made.declares).toEqual([{ name: "late", type: "TIME" }]);
+  expect(bodyOf(after("??? := ADD(EN := ~, IN1 := a, IN2 := ???).ENO", "Pin:-2", [0], "sum"))).toBe(
+    "sum := ADD(EN := ~, IN1 := a, IN2 := ???).ENO",
+  );
+});
+
+test("Tab goes from pin to pin", () => {
+  const [found] = networksIn("RUNG\n    wait(IN := ~, PT := ???).Q count(CU := ~, PV := 3)\nEND_RUNG\n");
+  if (!found) throw new Error("no rung");
+  expect(emptyInRung(found, found.text, [0])).toEqual({ place: [0], key: "Pin:1" });
+  expect(emptyInRung(found, found.text, [1])).toBeNull();
+});
+
+test("a click means the pin whose row it is in", () => {
+  const [part] = new Sheet().of(
+    "PROGRAM P\nRUNG\n    wait(IN := ~, PT := ???, ET => seen).Q\nEND_RUNG\nEND_PROGRAM\n",
+    600,
+  );
+  const drawing = part?.kind === "rung" ? part.drawing : null;
+  const frame = drawing?.elements[0]?.frame;
+  if (!drawing || !frame) throw new Error("no box");
+  const [, pt] = frame.inputs;
+  expect(pinAtPoint(drawing, frame.x - 20, pt?.y ?? 0)).toEqual({ place: [0], pin: 1 });
+  expect(pinAtPoint(drawing, frame.x + frame.width + 20, frame.outputs.at(-1)?.y ?? 0)).toEqual({ place: [0], pin: 2 });
+  expect(pinAtPoint(drawing, frame.x + 20, frame.y + 4)).toBeNull();
+  expect(spotOfPin(drawing, [0], 1)?.y).toBe((pt?.y ?? 0) + 4);
 });

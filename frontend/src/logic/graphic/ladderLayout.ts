@@ -45,6 +45,8 @@ export interface Frame {
 }
 
 interface Pin {
+  /** The number of its argument, `RESULT` for the variable of the result; -1 for the output that the power goes on from. */
+  arg: number;
   /** What is written inside of the frame. */
   name: string;
   /** What is written beside it; empty where the wire of the rung is. */
@@ -77,6 +79,8 @@ interface Gap {
   width: number;
 }
 
+/** In place of the number of an argument: the variable that takes the result. */
+export const RESULT = -2;
 const LEFT = 4;
 const RIGHT = 6;
 const LEAST = 80;
@@ -182,11 +186,12 @@ function boxOf(box: Box) {
   // The power comes in at the height of the wire, which is that of the first row.
   const ins = power ? [power, ...inputs.filter((each) => each !== power)] : inputs;
   const outs = [
-    ...(box.output === null ? [] : [{ name: box.output, text: "", power: true }]),
-    ...(box.result === null ? [] : [{ name: "", text: box.result, power: false }]),
-    ...named.map(({ name, value }) => ({ name: name ?? "", text: value, power: false })),
+    ...(box.output === null ? [] : [{ arg: -1, name: box.output, text: "", power: true }]),
+    ...(box.result === null ? [] : [{ arg: RESULT, name: "", text: box.result, power: false }]),
+    ...named.map((each) => ({ arg: box.args.indexOf(each), name: each.name ?? "", text: each.value, power: false })),
   ];
   const left = ins.map((each) => ({
+    arg: box.args.indexOf(each),
     name: each.name ?? "",
     text: isPower(each) ? "" : textOf(each),
     power: isPower(each),

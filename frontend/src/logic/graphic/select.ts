@@ -49,7 +49,11 @@ export function textOf(part: DrawnPart, places: readonly Place[]): string {
       .map(({ span }) => text.slice(span.at, span.end))
       .join(" ");
   const wanted = new Set(places.map(([index]) => index));
-  const spots = spotsOf(part).filter(({ place: [index] }) => wanted.has(index));
+  const all = spotsOf(part).filter(({ place: [index] }) => wanted.has(index));
+  // What is inside of a step that is chosen, too, is in its text.
+  const spots = all.filter(({ element: { span } }) =>
+    all.every(({ element: { span: outer } }) => outer === span || span.at <= outer.at || span.end > outer.end),
+  );
   const ended = part.kind === "network" ? ";" : "";
   return spots.map(({ element: { span } }) => text.slice(span.at, span.end) + ended).join("\n");
 }

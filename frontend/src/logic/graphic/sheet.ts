@@ -140,18 +140,24 @@ export class Sheet {
   private width = 0;
 
   of(text: string, width: number): readonly DrawnPart[] {
-    const before = this.width === width ? this.known : new Map<string, DrawnPart>();
+    const before = this.known;
+    const wider = this.width !== width;
     const last = this.drawn;
     this.width = width;
     this.known = new Map();
     this.drawn = partsIn(text).map((found, index) => {
       const same = before.get(found.text);
-      const part = same ? { ...same, found } : draw(found, width, last[index]);
+      const part = same ? { ...(wider ? inWidth(same, width) : same), found } : draw(found, width, last[index]);
       this.known.set(found.text, part);
       return part;
     });
     return this.drawn;
   }
+}
+
+/** The same in a different width: a rung reaches from rail to rail, others do not ask for it. */
+function inWidth(part: DrawnPart, width: number): DrawnPart {
+  return part.kind === "rung" && part.path ? { ...part, drawing: layOut(part.path, width) } : part;
 }
 
 function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPart {

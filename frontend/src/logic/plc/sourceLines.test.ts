@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../../wire/types";
-import { isBuilt, lineIn, movedTo, pouAt } from "./sourceLines";
+import { isBuilt, lineIn, movedTo, ownerOf, pouAt } from "./sourceLines";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -22,6 +22,16 @@ describe("the declaration of a line", () => {
     expect(pouAt([block, method], "fb.st", 3, text)?.name).toBe("FB.run");
     expect(pouAt([block, method], "fb.st", 4, text)?.name).toBe("FB.run");
     expect(pouAt([block, method], "fb.st", 5, text)?.name).toBe("FB");
+  });
+
+  it("ends an action at its end, and names the variables of its POU there", () => {
+    const chart: Pou = { name: "Press", kind: "program", file: "fb.st", line: 1 };
+    const action: Pou = { name: "Press.Count", kind: "action", file: "fb.st", line: 2 };
+    const text =
+      "PROGRAM Press\nACTION Count:\n  n := n + 1;\nEND_ACTION\nTRANSITION FROM A TO B := go; END_TRANSITION\n";
+    expect(pouAt([chart, action], "fb.st", 3, text)).toBe(action);
+    expect(ownerOf([chart, action], action)).toBe(chart);
+    expect(pouAt([chart, action], "fb.st", 5, text)).toBe(chart);
   });
 });
 

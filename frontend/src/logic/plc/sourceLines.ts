@@ -2,19 +2,26 @@
 import type { Pou } from "../../wire/types";
 
 /**
- * The declaration that contains a line of a file, for `Add to watch` in the editor. If the text is given, a method ends at its
- * end: the body of a block may come after its methods.
+ * The declaration that contains a line of a file, for `Add to watch` in the editor. If the text is given, a method or
+ * action ends at its end: the body of a block may come after its methods.
  */
 export function pouAt(pous: readonly Pou[], file: string, line: number, text = ""): Pou | undefined {
   const ended = (pou: Pou) =>
-    (pou.kind === "method" || pou.kind === "property") &&
+    (pou.kind === "method" || pou.kind === "property" || pou.kind === "action") &&
     linesOf(text)
       .slice(pou.line - 1, line - 1)
-      .some((each) => /\bEND_(METHOD|PROPERTY)\b/i.test(each));
+      .some((each) => /\bEND_(METHOD|PROPERTY|ACTION)\b/i.test(each));
   return pous
     .filter((pou) => pou.file === file && pou.line <= line && !ended(pou))
     .sort((a, b) => b.line - a.line)
     .at(0);
+}
+
+/** The declaration whose variables the text of one names: an action has those of its POU. */
+export function ownerOf(pous: readonly Pou[], pou: Pou): Pou {
+  if (pou.kind !== "action") return pou;
+  const name = pou.name.slice(0, pou.name.lastIndexOf(".")).toUpperCase();
+  return pous.find((each) => each.file === pou.file && each.name.toUpperCase() === name) ?? pou;
 }
 
 /**

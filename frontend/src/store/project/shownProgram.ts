@@ -84,6 +84,7 @@ useBench.subscribe((now, before) => {
   if (now.instance?.id === before.instance?.id) return follow();
   // Its state has not come yet: the one that is known is that of the PLC before.
   fetched.clear();
+  asked.clear();
   useShownProgram.setState(edited);
 });
 
@@ -129,5 +130,30 @@ export function shownText(path: string): ShownText {
     return { text, built: text, pous: program?.pous ?? [] };
   }
   const { open, pous } = useDocuments.getState();
-  return { text: open[path]?.text ?? "", built: open[path]?.savedText ?? "", pous };
+  return { text: open[path]?.text ?? "", built: ranText(path) ?? open[path]?.savedText ?? "", pous };
 }
+
+/** While the saved texts have an error, what runs is what was built before: that text of a file. Null where it is the saved one, or not known yet. */
+function ranText(path: string): string | null {
+  const { state } = usePlc.getState();
+  const { instance } = useBench.getState();
+  if (!state || !instance || !useDocuments.getState().problems.some(({ severity }) => severity === "error"))
+    return null;
+  const key = `${instance.id}:${state.program_version}`;
+  const known = fetched.get(key);
+  if (known) return known.files[path] ?? "";
+  if (!asked.has(key)) {
+    asked.add(key);
+    rest.programText(instance.id, state.program_version).then(
+      (program) => {
+        fetched.set(key, program);
+        // Whoever shows the text looks again.
+        useShownProgram.setState({});
+      },
+      () => asked.delete(key),
+    );
+  }
+  return null;
+}
+
+const asked = new Set<string>();

@@ -51,6 +51,7 @@ export const graphic = {
   "graphic.transition": "Transition from {from} to {to}: {condition}",
   "graphic.twice": "Rungs {rungs} write {name}; the last one counts",
   "graphic.twice.here": "Two coils write {name}; the last one counts",
+  "graphic.unbuilt": "not built yet: it did not run",
   "graphic.unread": "cannot be drawn; this is its text",
   "graphic.view": "View",
   "graphic.view.both": "Both",

@@ -216,6 +216,7 @@ export const project = {
   "kind.global": "globals",
   "kind.interface": "interface",
   "kind.method": "method",
+  "kind.action": "action",
   "kind.program": "program",
   "kind.property": "property",
   "kind.type": "type",

@@ -53,6 +53,7 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.transition": "トランジション {from} から {to}: {condition}",
   "graphic.twice": "ラング {rungs} が {name} に書き込みます（最後が有効）",
   "graphic.twice.here": "2つのコイルが {name} に書き込みます（最後が有効）",
+  "graphic.unbuilt": "まだビルドされていません: 実行されていません",
   "graphic.unread": "描画できないため、テキストを表示",
   "graphic.view": "表示",
   "graphic.view.both": "両方",

@@ -215,6 +215,7 @@ export const project: Record<keyof typeof english, string> = {
   "kind.global": "グローバル変数",
   "kind.interface": "インタフェース",
   "kind.method": "メソッド",
+  "kind.action": "アクション",
   "kind.program": "プログラム",
   "kind.property": "プロパティ",
   "kind.type": "データ型",

@@ -5,7 +5,7 @@ import type { Pou } from "../../../wire/types";
 import { verifyHere } from "./verifyHere";
 
 /** Only code that runs can be verified. */
-const VERIFIED: readonly Pou["kind"][] = ["program", "function_block", "function", "method"];
+const VERIFIED: readonly Pou["kind"][] = ["program", "function_block", "function", "method", "action"];
 
 export const canVerify = ({ kind }: Pick<Pou, "kind">) => VERIFIED.includes(kind);
 

@@ -4,7 +4,7 @@
  */
 
 import { type NamedVariable, variablesIn } from "../../../logic/debug/inline";
-import { lineIn, pouAt } from "../../../logic/plc/sourceLines";
+import { lineIn, ownerOf, pouAt } from "../../../logic/plc/sourceLines";
 import { loadNames, pathOf, seenAsNow, useSeenAs } from "../../../store/debug/seenAs";
 import { frameNow, frameText, useStack } from "../../../store/debug/stack";
 import { usePrefs } from "../../../store/page/prefs";
@@ -132,21 +132,21 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
   const here = frameNow()?.scanbench?.pou.toUpperCase();
   for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
     let pou = pouAt(pous, path, startLineNumber, text);
-    if (pou && on && hasValues(pou)) void loadNames(pou.name);
+    if (pou && on && hasValues(pou)) void loadNames(ownerOf(pous, pou).name);
     let comment = false;
     for (let line = startLineNumber; line <= endLineNumber; line += 1) {
       const begins = pous.find((known) => known.file === path && known.line === line);
       if (begins && begins !== pou) {
         pou = begins;
-        if (on && hasValues(pou)) void loadNames(pou.name);
-      }
+        if (on && hasValues(pou)) void loadNames(ownerOf(pous, pou).name);
+      } else if (pou?.kind === "action") pou = pouAt(pous, path, line, text);
       const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
       const found = variablesIn(model.getLineContent(line), comment);
       comment = found.comment;
-      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou, inFrame) : [];
+      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, ownerOf(pous, pou), inFrame) : [];
       const next = haltedAt === line ? saidOf(halted?.look) : "";
       const old = inFrame && haltedAt !== null && line > haltedAt;
-      const instance = on && begins && hasValues(begins) ? oneOfSeveral(begins.name) : "";
+      const instance = on && begins && begins.kind !== "action" && hasValues(begins) ? oneOfSeveral(begins.name) : "";
       if (values.length > 0 || next !== "" || instance !== "") wanted.set(line, { values, old, instance, next });
     }
   }

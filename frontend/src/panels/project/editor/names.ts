@@ -1,5 +1,5 @@
 /** The name under the mouse or the caret, and the POU around it. */
-import { pouAt } from "../../../logic/plc/sourceLines";
+import { ownerOf, pouAt } from "../../../logic/plc/sourceLines";
 import { shownText } from "../../../store/project/shownProgram";
 import type { Pou } from "../../../wire/types";
 import type { editor, IPosition } from "./monaco";
@@ -28,8 +28,10 @@ const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1);
 /** A type declares the members of its variables and has no values itself, even if a variable of the same name exists. */
 export const hasValues = ({ kind }: Pou) => kind !== "type" && kind !== "interface";
 
+/** The POU around a line, whose variables are named there. */
 export function pouOf(model: editor.ITextModel, line: number): Pou | undefined {
   const path = pathOfModel(model);
   const { pous, text } = shownText(path);
-  return pouAt(pous, path, line, text);
+  const found = pouAt(pous, path, line, text);
+  return found && ownerOf(pous, found);
 }

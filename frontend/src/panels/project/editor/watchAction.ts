@@ -1,7 +1,7 @@
 /** Adds the name at the caret or the selection to the watch table: by menu, by key, or by dragging it there. */
 
 import { pathsIn } from "../../../logic/format/paths";
-import { pouAt } from "../../../logic/plc/sourceLines";
+import { ownerOf, pouAt } from "../../../logic/plc/sourceLines";
 import { loadNames, seenAsNow } from "../../../store/debug/seenAs";
 import { useMembers } from "../../../store/plc/members";
 import { shownText } from "../../../store/project/shownProgram";
@@ -91,7 +91,8 @@ async function watchNames(path: string, line: number, names: readonly string[]):
 /** A name in a POU means a variable of the instance whose values the text shows, or a global one. */
 export async function pathsOf(path: string, line: number, names: readonly string[]): Promise<string[]> {
   const { pous, text } = shownText(path);
-  const pou = pouAt(pous, path, line, text);
+  const found = pouAt(pous, path, line, text);
+  const pou = found && ownerOf(pous, found);
   if (pou) await loadNames(pou.name);
   return names.map((name) => pathIn(pou?.name, name));
 }

@@ -1,5 +1,6 @@
 import { wiresIn } from "../../../../logic/graphic/diagramEdit";
 import type { Around, Box, Edit, Naming } from "../../../../logic/graphic/edit";
+import { spotOfPin } from "../../../../logic/graphic/ladderPins";
 import { inText } from "../../../../logic/graphic/places";
 import { type DrawnPart, type Spot, stopsOf } from "../../../../logic/graphic/sheet";
 import { loadBoxes, variablesAt } from "../../../../store/graphic/boxes";
@@ -7,7 +8,7 @@ import { t } from "../../../../text";
 import type { Offer } from "../../../../ui/useOffers";
 import { sameElement } from "./cursor";
 import { NameField } from "./NameField";
-import { nameOfStop } from "./names";
+import { nameOfBoxPin, nameOfStop } from "./names";
 
 interface Props {
   path: string;
@@ -29,6 +30,10 @@ export function ElementField({ path, written, part, scale, named, around, onTake
   const { head } = naming;
   const stop = head ? HEAD : stopsOf(part).find((each) => sameElement(each.place, place));
   if (!stop) return null;
+  const pinned =
+    naming.pin !== undefined && part.kind === "rung" && part.drawing
+      ? spotOfPin(part.drawing, place, naming.pin)
+      : null;
   const at = inText(written, written.found.body.at);
 
   async function names(): Promise<readonly Offer[]> {
@@ -56,10 +61,10 @@ export function ElementField({ path, written, part, scale, named, around, onTake
 
   return (
     <NameField
-      key={`${place.join(".")} ${head ?? naming.offers} ${named.text}`}
+      key={`${place.join(".")} ${head ?? naming.pin ?? naming.offers} ${named.text}`}
       naming={naming}
-      spot={head ? HEAD : scaled(stop, scale)}
-      label={head ? t(`graphic.head.${head}`) : nameOfStop(stop as Spot)}
+      spot={head ? HEAD : scaled(pinned ?? stop, scale)}
+      label={head ? t(`graphic.head.${head}`) : (nameOfBoxPin(stop as Spot, naming.pin) ?? nameOfStop(stop as Spot))}
       names={names}
       onTake={take}
       onLeave={onLeave}

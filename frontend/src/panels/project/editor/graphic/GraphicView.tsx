@@ -1,22 +1,18 @@
-import { useVirtualizer, type Virtualizer } from "@tanstack/react-virtual";
+import { useVirtualizer } from "@tanstack/react-virtual";
 import {
   type ClipboardEvent,
   type KeyboardEvent,
   type MouseEvent,
   useEffect,
   useId,
+  useLayoutEffect,
   useMemo,
   useRef,
   useState,
 } from "react";
 import { baseName } from "../../../../logic/format/paths";
-import { emptyIn } from "../../../../logic/graphic/chartKeys";
-import { NOTHING } from "../../../../logic/graphic/diagram";
-import { diagramOf } from "../../../../logic/graphic/diagramEdit";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
-import { emptyInRung } from "../../../../logic/graphic/keys";
-import type { Place } from "../../../../logic/graphic/ladderLayout";
-import type { Found } from "../../../../logic/graphic/networks";
+import { PIN } from "../../../../logic/graphic/keys";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
 import {
   actionOf,
@@ -24,29 +20,30 @@ import {
   drawnWith,
   headOf,
   heightOf,
-  placeOnWire,
   Sheet,
   scaleOf,
   stepIn,
   stopsOf,
 } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
-import { pouAt } from "../../../../logic/plc/sourceLines";
+import { ownerOf, pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { boxesNow, loadBoxes } from "../../../../store/graphic/boxes";
 import { showAs, useFit, useViewOf } from "../../../../store/graphic/views";
 import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useDocuments } from "../../../../store/project/documents";
-import { shownText } from "../../../../store/project/shownProgram";
+import { shownText, useShownProgram } from "../../../../store/project/shownProgram";
 import { useVerifyRows } from "../../../../store/verify/verifyRows";
 import { t } from "../../../../text";
-import type { Problem } from "../../../../wire/types";
+import type { Pou, Problem } from "../../../../wire/types";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
 import { ElementField } from "./ElementField";
 import { Foot } from "./Foot";
+import { emptyAfter, isInSight, pinAt, placeInText, wireAt } from "./find";
+import { isUnbuilt } from "./followFlow";
 import { marksOf, togglePart } from "./marks";
 import { type Operand, operandAt, pressOperand } from "./operand";
 import { PartRow } from "./PartRow";
@@ -75,20 +72,24 @@ interface Props {
 export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
   const parts = useRef(sheetOf(path));
-  const [width, setWidth] = useState(640);
+  /** Known when it is in the page: what is drawn before would be drawn twice. */
+  const [width, setWidth] = useState<number | null>(null);
   const [wanted, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
   const [renaming, setRenaming] = useState<Operand | null>(null);
   const id = useId();
   const view = useViewOf(path, text);
   useDocuments(({ pous }) => pous);
+  // What was built is known then.
+  useShownProgram();
   const problems = useDocuments((documents) => (readOnly ? NO_PROBLEMS : documents.problems));
   const breakpoints = useDebug((debug) => debug.breakpoints);
   const halt = useHaltedLine(path);
   const verified = useVerifyRows(({ selected, byIndex }) =>
     selected === null ? null : (byIndex.get(selected) ?? null),
   );
-  const room = Math.max(320, width - BESIDE);
-  const drawn = useMemo(() => parts.current.of(text, room), [text, room]);
+  const room = Math.max(320, (width ?? 0) - BESIDE);
+  const measured = width !== null;
+  const drawn = useMemo(() => (measured ? parts.current.of(text, room) : []), [text, room, measured]);
   // Its rung may have been taken back, or deleted by somebody else.
   const cursor = useMemo(
     () => (drawn.length > 0 && wanted.rung >= drawn.length ? { rung: drawn.length - 1, place: [] } : wanted),
@@ -102,8 +103,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     [drawn, pous, path, text],
   );
 
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!sheet.current) return;
+    setWidth(sheet.current.clientWidth || 640);
     const observer = new ResizeObserver(([entry]) => entry && setWidth(Math.floor(entry.contentRect.width)));
     observer.observe(sheet.current);
     return () => observer.disconnect();
@@ -244,8 +246,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     editing.put(cursor, event.clipboardData.getData("text/plain"));
   }
 
-  function onDoubleClick({ target: on }: MouseEvent): void {
+  function onDoubleClick(event: MouseEvent): void {
+    const { target: on } = event;
     if (!(on instanceof Element) || !on.closest(".netbody")) return;
+    const pin = cursorPart && pinAt(cursorPart, event);
+    if (pin && editing.press(`${PIN}${pin.pin}`, { rung: cursor.rung, place: pin.place })) return;
     if (!on.closest("[data-element]") || !editing.press("F2", cursor)) toText();
   }
 
@@ -257,10 +262,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     // The field that opens next takes the focus; a blur of this one would close it.
     if (made.naming) return true;
     const found = drawn[at]?.found;
-    const emptyOf = { chart: emptyIn, rung: emptyInRung, network: emptyAfter };
-    const empty = found ? emptyOf[found.kind](found, made.text, made.place) : null;
-    const next = onwards ? empty : null;
-    if (next && editing.press("F2", { rung: at, place: next }, made.text)) return true;
+    const next = onwards && found ? emptyAfter(found, made.text, made.place) : null;
+    if (next && editing.press(next.key, { rung: at, place: next.place }, made.text)) return true;
     if (onwards && preview) go({ rung: at, place: elementBeside({ elements: stopsOf(preview) }, made.place) });
     sheet.current?.focus();
     return true;
@@ -296,11 +299,20 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   }
 
   const cursorPart = drawn[cursor.rung];
-  const cursorPou =
-    cursorPart && pouAt(pous, path, (actionOf(drawn, cursorPart)?.chart ?? cursorPart).found.line, text);
+  /** The POU whose variables a part has. */
+  function pouOf(part: DrawnPart): Pou | undefined {
+    const found = pouAt(pous, path, (actionOf(drawn, part)?.chart ?? part).found.line, text);
+    return found && ownerOf(pous, found);
+  }
+  const cursorPou = cursorPart && pouOf(cursorPart);
   function tool(key: string): void {
     if (!named) sheet.current?.focus();
     if (!choosing.press(key)) editing.press(key, cursor);
+  }
+
+  function renamed(): void {
+    setRenaming(null);
+    sheet.current?.focus();
   }
 
   const kind = cursorPart?.kind ?? "rung";
@@ -336,8 +348,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
             const part = shownAt(item.index);
             if (!rung || !part) return null;
             const action = actionOf(drawn, rung);
-            // An action has the variables of its chart.
-            const pou = pouAt(pous, path, (action?.chart ?? rung).found.line, text);
+            const pou = pouOf(rung);
             return (
               <div
                 key={item.key}
@@ -372,9 +383,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   }
                   twice={twice[item.index] ?? NONE}
                   verified={verified}
+                  unbuilt={pou !== undefined && isUnbuilt(rung, path)}
                   wrong={wrongIn(rung, path, problems)}
                   chosen={chosen?.parts.includes(item.index) ? chosen.places : null}
-                  drop={drag.dragged && (drag.dragged.over?.rung === item.index ? drag.dragged.over.drop : "elsewhere")}
+                  drop={drag.dropIn(item.index)}
+                  target={drag.targetIn(item.index)}
                   marks={marksOf(rung, path, breakpoints, halt)}
                 />
               </div>
@@ -382,7 +395,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           })}
         </div>
       </div>
-      {renaming && <Rename path={path} operand={renaming} onClose={() => setRenaming(null)} />}
+      {renaming && <Rename path={path} operand={renaming} onClose={renamed} />}
       <Foot
         path={path}
         kind={kind}
@@ -409,36 +422,4 @@ function sheetOf(path: string): Sheet {
   sheets.set(path, known);
   for (const each of [...sheets.keys()].slice(0, -MOST_SHEETS)) sheets.delete(each);
   return known;
-}
-
-/** Whether all of a part is in sight, by what is known without looking at the page. */
-function isInSight(virtual: Virtualizer<HTMLDivElement, Element>, index: number): boolean {
-  const item = virtual.getVirtualItems().find((each) => each.index === index);
-  const [top, height] = [virtual.scrollOffset, virtual.scrollRect?.height];
-  if (!item || top === null || height === undefined) return false;
-  return item.start >= top && item.end <= top + height;
-}
-
-/** The place on a wire that is clicked; null for a click that means none. */
-function wireAt(part: DrawnPart, { target, clientX, clientY }: MouseEvent): Place | null {
-  const svg = target instanceof Element ? target.closest("svg.draw") : null;
-  if (!svg || !part.drawing) return null;
-  const { left, top, width } = svg.getBoundingClientRect();
-  const scale = width / part.drawing.width;
-  return placeOnWire(part, (clientX - left) / scale, (clientY - top) / scale);
-}
-
-/** Where the element at the cursor begins in the file. */
-function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
-  if (!part) return { line: 1, column: 1 };
-  return inText(part, stopsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
-}
-
-/** The first input at or after a place of a network that is not connected; null where there is none. */
-function emptyAfter(_found: Found, text: string, [index = 0, pin = 0]: Place): Place | null {
-  const items = diagramOf(text)?.items ?? [];
-  const places = items.flatMap(({ inputs }, item) =>
-    inputs.flatMap((input, at): Place[] => (input.text === NOTHING ? [[item, at]] : [])),
-  );
-  return places.find(([item = 0, at = 0]) => item > index || (item === index && at >= pin)) ?? null;
 }

@@ -51,6 +51,10 @@ interface Props {
   chosen: readonly Place[] | null;
   /** Where what is dragged would come; null where nothing is dragged. */
   drop: Drop | "elsewhere" | null;
+  /** What a drop means: an element by its place, `above` or `below` all of it; else empty. */
+  target: string;
+  /** What runs has not got it yet, or not as it is drawn. */
+  unbuilt: boolean;
   /** What the compiler says about it. */
   wrong: readonly Wrong[];
 }
@@ -74,6 +78,8 @@ export const PartRow = memo(function PartRow({
   wrong,
   chosen,
   drop,
+  target,
+  unbuilt,
 }: Props) {
   const { found, readable } = part;
   const { label, title, off } = found.head;
@@ -84,7 +90,7 @@ export const PartRow = memo(function PartRow({
   const lines = part.kind === "chart" ? [headline] : head.title;
   return (
     <div
-      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}${chosen?.length === 0 ? " whole" : ""}`}
+      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}${chosen?.length === 0 ? " whole" : ""}${target === "above" || target === "below" ? ` drop${target}` : ""}`}
       role="group"
       aria-label={t(`graphic.${part.kind}`, { number, title: headline || label })}
     >
@@ -111,7 +117,8 @@ export const PartRow = memo(function PartRow({
               {t("graphic.differences", { count: differing.length, scan: verified?.scan ?? 0 })}
             </span>
           )}
-          {said !== "" && <span className="st faint">{said}</span>}
+          {unbuilt && <span className="st faint">{t("graphic.unbuilt")}</span>}
+          {said !== "" && !unbuilt && <span className="st faint">{said}</span>}
           {!readable && <span className="st bad">{t("graphic.unread")}</span>}
           {wrong[0] && (
             <span className="st bad cut" title={wrong.map(({ problem }) => problem.message).join("\n")}>
@@ -143,6 +150,7 @@ export const PartRow = memo(function PartRow({
           wrong={wrongText(wrong)}
           chosen={chosen?.map((place) => place.join(".")).join(" ") ?? ""}
           drop={drop}
+          target={target}
         />
         {!readable && <pre className="nettext">{found.text}</pre>}
       </div>
@@ -173,12 +181,14 @@ function Picture({
   wrong,
   chosen,
   drop,
+  target,
 }: Pick<Props, "path" | "part" | "scale" | "pou" | "id" | "cursor" | "field" | "marks"> & {
   apart: AllApart;
   onSaid: (said: string) => void;
   wrong: string;
   chosen: string;
   drop: Props["drop"];
+  target: string;
 }) {
   const picture = useRef<HTMLDivElement>(null);
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
@@ -220,6 +230,7 @@ function Picture({
     wrong,
     chosen,
     apart: apart.wires,
+    target,
   };
   return (
     <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>

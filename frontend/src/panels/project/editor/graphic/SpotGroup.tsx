@@ -19,6 +19,8 @@ export interface Marked {
   wrong: string;
   /** Wires that are not the same on both sides of a verification: see `AllApart`. */
   apart: string;
+  /** The place that a drop means; empty where nothing is dragged. */
+  target: string;
 }
 
 interface Props extends Marked {
@@ -45,6 +47,7 @@ export function SpotGroup({ place, name, kind = "", box, dot, children, ...marke
       className={`el ${kind}`}
       data-wrong={wrong === "" ? undefined : ""}
       data-next={halted || undefined}
+      data-drop={(marked.target !== "" && key === marked.target) || undefined}
       role="option"
       aria-selected={selected}
       aria-label={[name, halted && t("graphic.next"), point && t("graphic.point"), wrong].filter(Boolean).join(", ")}

@@ -36,6 +36,13 @@ function linesOf({ found }: DrawnPart, path: string): { first: number; last: num
   return { first, last: first + found.text.split("\n").length };
 }
 
+/** Whether a part that a PLC has a program for is not in that program as it is drawn. */
+export function isUnbuilt(part: DrawnPart, path: string): boolean {
+  if (!part.readable || part.found.head.off || usePlc.getState().state === null || showsRan(path)) return false;
+  const { built, text } = shownText(path);
+  return isWrong(part, path) || !isBuilt(text, built, part.found.line, part.found.text);
+}
+
 /** Calls `paint` now and with each answer, until the returned function is called. */
 export function followFlow(
   part: DrawnPart,

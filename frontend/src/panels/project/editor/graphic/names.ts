@@ -6,6 +6,7 @@ import type { DiagramDrawn } from "../../../../logic/graphic/diagramLayout";
 import type { PinSpot } from "../../../../logic/graphic/diagramPins";
 import type { Drawn } from "../../../../logic/graphic/ladderLayout";
 import type { Spot } from "../../../../logic/graphic/sheet";
+import type { Box } from "../../../../logic/graphic/tree";
 import { type TextKey, t } from "../../../../text";
 
 const CONTACT: Record<string, TextKey> = {
@@ -80,6 +81,17 @@ export function nameOfPin({ of, index, side }: PinSpot): string {
   const { name = "", text = "", negated = false } = item.inputs[index] ?? {};
   const value = text === NOTHING ? t("graphic.nothing") : negated ? `NOT ${text}` : text;
   return t("graphic.pin.input", { name: name || index + 1, box, value });
+}
+
+/** A pin of a box in a rung, by the number of its argument; null where none is meant. */
+export function nameOfBoxPin({ element }: Spot, pin: number | undefined): string | null {
+  if (pin === undefined || element.kind !== "box") return null;
+  const { args, callee, result } = element as Box;
+  const { name, value, out } = args[pin] ?? { name: "", value: result ?? "", out: true };
+  const shown = value === NOTHING ? t("graphic.nothing") : value;
+  return out
+    ? t("graphic.pin.output", { name: name ?? "", box: callee, target: shown }).replace(/ {2,}/g, " ")
+    : t("graphic.pin.input", { name: name ?? pin + 1, box: callee, value: shown });
 }
 
 /** Whatever the cursor can be at. */

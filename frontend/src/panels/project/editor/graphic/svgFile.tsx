@@ -12,7 +12,7 @@ const SVG = "http://www.w3.org/2000/svg";
 const MARGIN = 16;
 const HEAD = 26;
 const LINE = 16;
-const PLAIN: Marked = { id: "", cursor: null, next: "", points: "", chosen: "", wrong: "", apart: "" };
+const PLAIN: Marked = { id: "", cursor: null, next: "", points: "", chosen: "", wrong: "", apart: "", target: "" };
 
 /** `headOf` gives the headline of a part. */
 export const svgFile = (parts: readonly DrawnPart[], headOf: (part: DrawnPart) => string): string =>

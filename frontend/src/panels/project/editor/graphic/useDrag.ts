@@ -1,6 +1,11 @@
-/** What is dragged in a drawing: an output to an input, or elements of a rung to a different place. */
+/**
+ * What is dragged in a drawing: an output to an input, a line of a network to a different place in the order, elements of a rung, of
+ * a chart, and whole rungs and networks by their numbers.
+ */
 
 import { type PointerEvent, useRef, useState } from "react";
+import { droppedInChart } from "../../../../logic/graphic/chartMove";
+import { reordered } from "../../../../logic/graphic/diagramEdit";
 import { connected } from "../../../../logic/graphic/diagramKeys";
 import { type Drop, dropsOf, nearestDrop } from "../../../../logic/graphic/drops";
 import type { Around, Made } from "../../../../logic/graphic/edit";
@@ -10,7 +15,7 @@ import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { sameElement } from "./cursor";
 import type { Chosen } from "./useChosen";
 import type { Cursor } from "./useEditing";
-import { writeParts } from "./write";
+import { movePart, writeParts } from "./write";
 
 interface Dragging {
   path: string;
@@ -25,13 +30,21 @@ interface Dragging {
 interface From extends Cursor {
   x: number;
   y: number;
+  /** The rung or network as a whole is dragged. */
+  whole: boolean;
 }
 
 /** What is under way, as it is drawn. */
 interface Dragged {
-  /** Where elements would be dropped; null where nothing is near. */
+  /** Where elements of a rung would be dropped; null where nothing is near. */
   over: { rung: number; drop: Drop } | null;
+  /** The element of a network or chart that a drop means, joined by points. */
+  element: { rung: number; key: string } | null;
+  /** Where a whole part would come. */
+  edge: { rung: number; above: boolean } | null;
 }
+
+const NOWHERE: Dragged = { over: null, element: null, edge: null };
 
 const FAR_ENOUGH = 5;
 
@@ -43,17 +56,35 @@ export function useDrag({ path, drawn, readOnly, chosen, go, begin, around }: Dr
     from.current = null;
     if (button !== 0 || readOnly) return;
     const rung = indexOf(target);
-    const wanted = drawn[rung]?.kind === "network" ? ".el.item, [data-side='output']" : ".el:not(.gap)";
-    const place = placeOf(target, wanted);
-    if (place && drawn[rung]?.kind !== "chart") from.current = { rung, place, x: clientX, y: clientY };
+    const kind = drawn[rung]?.kind;
+    const whole = target instanceof Element && target.closest(".no") !== null && kind !== "chart";
+    const wanted = kind === "network" ? ".el.item, [data-side='output']" : ".el:not(.gap)";
+    const place = whole ? [] : placeOf(target, wanted);
+    if (place) from.current = { rung, place, x: clientX, y: clientY, whole };
   }
 
   function onPointerMove({ target, clientX, clientY, buttons }: PointerEvent): void {
     const begun = from.current;
-    if (!begun || drawn[begun.rung]?.kind !== "rung") return;
+    const kind = begun && drawn[begun.rung]?.kind;
+    if (!begun) return;
     if (buttons === 0) leave();
     else if (!dragged && Math.hypot(clientX - begun.x, clientY - begun.y) < FAR_ENOUGH) return;
-    else setDragged({ over: dropAt(target, clientX, clientY) });
+    else if (begun.whole) setDragged({ ...NOWHERE, edge: edgeAt(target, clientY) });
+    else if (kind === "rung") setDragged({ ...NOWHERE, over: dropAt(target, clientX, clientY) });
+    else {
+      const key = indexOf(target) === begun.rung ? placeOf(target, ".el")?.join(".") : undefined;
+      const now = key === undefined || key === begun.place.join(".") ? null : { rung: begun.rung, key };
+      if (!dragged || dragged.element?.key !== now?.key) setDragged({ ...NOWHERE, element: now });
+    }
+  }
+
+  /** Above or below the part under the pointer. */
+  function edgeAt(target: EventTarget, y: number): Dragged["edge"] {
+    const rung = indexOf(target);
+    const row = target instanceof Element ? target.closest("[data-index]") : null;
+    if (!row || !drawn[rung] || drawn[rung]?.kind === "chart") return null;
+    const { top, height } = row.getBoundingClientRect();
+    return { rung, above: y < top + height / 2 };
   }
 
   function dropAt(target: EventTarget, x: number, y: number): Dragged["over"] {
@@ -70,21 +101,38 @@ export function useDrag({ path, drawn, readOnly, chosen, go, begin, around }: Dr
 
   function onPointerUp({ target }: PointerEvent): void {
     const begun = from.current;
-    const over = dragged?.over;
+    const { over, edge } = dragged ?? NOWHERE;
     const moving = dragged !== null;
     leave();
     const part = begun && drawn[begun.rung];
     if (!begun || !part) return;
-    if (part.kind === "network") {
-      const place = placeOf(target, "[data-side='input']");
-      if (!place || indexOf(target) !== begun.rung) return;
-      begin(begun.rung, connected(part.found.text, begun.place, place, around()));
+    if (begun.whole) {
+      if (!edge || !moving || edge.rung === begun.rung) return;
+      go({ rung: movePart(path, drawn, begun.rung, edge), place: [] });
+    } else if (part.kind !== "rung") {
+      const there = indexOf(target) === begun.rung ? endOn(part, begun.place, target) : null;
+      if (!there || !begin(begun.rung, there)) return;
     } else if (!moving) return;
     else if (over) drop(begun, over);
     // The click that ends the drag means nothing. There is none where the element is not there any more.
     const ignore = (event: Event) => event.stopPropagation();
     window.addEventListener("click", ignore, { capture: true, once: true });
     setTimeout(() => window.removeEventListener("click", ignore, true));
+  }
+
+  /** What it means to end a drag of an element of a network or chart there. */
+  function endOn(part: DrawnPart, place: Place, target: EventTarget): Made {
+    const { text } = part.found;
+    if (part.kind === "chart") {
+      const goal = placeOf(target, ".el");
+      return goal && droppedInChart(part.found, place, goal);
+    }
+    const input = placeOf(target, "[data-side='input']");
+    if (input) return connected(text, place, input, around());
+    const [goal] = placeOf(target, ".el.item") ?? [];
+    const [index = 0] = place;
+    if (goal === undefined || goal === index || place.length > 1) return null;
+    return { text: reordered(text, index, goal), place: [goal], naming: null };
   }
 
   function drop(begun: From, { rung, drop }: NonNullable<Dragged["over"]>): void {
@@ -109,7 +157,20 @@ export function useDrag({ path, drawn, readOnly, chosen, go, begin, around }: Dr
     setDragged(null);
   }
 
-  return { dragged, onPointerDown, onPointerMove, onPointerUp, onPointerLeave: leave };
+  /** Where what is dragged would come in a rung; null where nothing is dragged that fits in rungs. */
+  function dropIn(rung: number): Drop | "elsewhere" | null {
+    if (!dragged || dragged.edge || dragged.element || drawn[from.current?.rung ?? -1]?.kind !== "rung") return null;
+    if (from.current?.whole) return null;
+    return dragged.over?.rung === rung ? dragged.over.drop : "elsewhere";
+  }
+
+  /** What of a part a drop means: an element by its place, or `above` or `below` it. Empty where it means nothing there. */
+  function targetIn(rung: number): string {
+    if (dragged?.edge?.rung === rung) return dragged.edge.above ? "above" : "below";
+    return dragged?.element?.rung === rung ? dragged.element.key : "";
+  }
+
+  return { dropIn, targetIn, onPointerDown, onPointerMove, onPointerUp, onPointerLeave: leave };
 }
 
 const indexOf = (target: EventTarget) =>

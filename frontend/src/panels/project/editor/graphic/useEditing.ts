@@ -6,6 +6,8 @@ import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit"
 import { headEdit } from "../../../../logic/graphic/head";
 import { rungEdit } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
+import { readRung } from "../../../../logic/graphic/ladderRead";
+import { networksIn } from "../../../../logic/graphic/networks";
 import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import type { TextKey } from "../../../../text";
 import { addPart, putParts, removeParts, switchParts, takeBack, writePart } from "./write";
@@ -56,7 +58,7 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
   function press(key: string, { rung: at, place }: Cursor, text?: string): boolean {
     const known = drawn[at];
     if (!known || readOnly) return false;
-    const part = text === undefined ? known : { ...known, found: { ...known.found, text } };
+    const part = text === undefined ? known : written(known, text);
     const lower = key.toLowerCase();
     const alias = ALIASES[part.kind][lower];
     if (alias) return press(alias, { rung: at, place }, text);
@@ -121,6 +123,14 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
   }
 
   return { named, refused, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
+}
+
+/** A part with the text that was just written for it, before it is drawn. */
+function written(part: DrawnPart, text: string): DrawnPart {
+  const found = { ...part.found, text };
+  if (part.kind !== "rung") return { ...part, found };
+  const read = readRung({ ...found, ...networksIn(text)[0], text });
+  return { ...part, found, path: read.kind === "rung" ? read.path : null };
 }
 
 /** Keys of CODESYS that mean the same; those that a browser keeps to itself have none. */

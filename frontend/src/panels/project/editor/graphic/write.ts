@@ -1,6 +1,7 @@
 /** Edits of drawings as edits of the text: with undo, the carets of others, and everything else that it has. */
 
 import type { TextEdit } from "vscode-languageserver-types";
+import { wholeText } from "../../../../logic/graphic/clip";
 import { declarations } from "../../../../logic/graphic/declare";
 import type { Change, Declared } from "../../../../logic/graphic/edit";
 import { bodiesOf, type Found } from "../../../../logic/graphic/networks";
@@ -65,6 +66,25 @@ export function addPart(path: string, found: Found, above: boolean): void {
 export function putParts(path: string, { to, indent }: Found, networks: readonly string[]): void {
   const lines = networks.flatMap((text) => text.split("\n"));
   changeText(path, [{ at: to, end: to, text: lines.map((line) => `\n${line === "" ? "" : indent}${line}`).join("") }]);
+}
+
+/** A rung or network above or below a different one, which may be in a different body. Its number then. */
+export function movePart(
+  path: string,
+  parts: readonly { found: Found }[],
+  from: number,
+  { rung, above }: { rung: number; above: boolean },
+): number {
+  const [source, target] = [parts[from]?.found, parts[rung]?.found];
+  if (!source || !target || from === rung || (above ? from + 1 : from - 1) === rung) return from;
+  const whole = modelAt(path).getValue();
+  const alone = bodiesOf(whole).some((body) => body.length === 1 && body[0]?.from === source.from);
+  const lines = wholeText(source).split("\n");
+  const text = lines.map((line, index) => (index === 0 || line === "" ? line : target.indent + line)).join("\n");
+  const at = above ? beginOf(path, target) : target.to;
+  const put = { at, end: at, text: above ? `${text}\n${target.indent}` : `\n${target.indent}${text}` };
+  changeText(path, [alone ? emptying(source) : removal(path, source), put]);
+  return rung + (above ? 0 : 1) - (from < rung && !alone ? 1 : 0);
 }
 
 /** Comments networks out with `{off}`; those that all are so, in again. */

@@ -1,0 +1,67 @@
+/** Where in a drawing something is: what is in sight, what a click means, and what is empty. */
+
+import type { Virtualizer } from "@tanstack/react-virtual";
+import type { MouseEvent } from "react";
+import { emptyIn } from "../../../../logic/graphic/chartKeys";
+import { NOTHING } from "../../../../logic/graphic/diagram";
+import { diagramOf } from "../../../../logic/graphic/diagramEdit";
+import type { Empty } from "../../../../logic/graphic/edit";
+import { emptyInRung } from "../../../../logic/graphic/keys";
+import type { Place } from "../../../../logic/graphic/ladderLayout";
+import { pinAtPoint } from "../../../../logic/graphic/ladderPins";
+import type { Found } from "../../../../logic/graphic/networks";
+import { inText } from "../../../../logic/graphic/places";
+import { type DrawnPart, placeOnWire, stopsOf } from "../../../../logic/graphic/sheet";
+import { sameElement } from "./cursor";
+import type { Cursor } from "./useEditing";
+
+/** Whether all of a part is in sight, by what is known without looking at the page. */
+export function isInSight(virtual: Virtualizer<HTMLDivElement, Element>, index: number): boolean {
+  const item = virtual.getVirtualItems().find((each) => each.index === index);
+  const [top, height] = [virtual.scrollOffset, virtual.scrollRect?.height];
+  if (!item || top === null || height === undefined) return false;
+  return item.start >= top && item.end <= top + height;
+}
+
+/** The place on a wire that is clicked; null for a click that means none. */
+export function wireAt(part: DrawnPart, event: MouseEvent): Place | null {
+  const point = pointIn(part, event);
+  return point && placeOnWire(part, point.x, point.y);
+}
+
+/** The pin of a box in a rung that is clicked; null for a click that means none. */
+export function pinAt(part: DrawnPart, event: MouseEvent) {
+  const point = pointIn(part, event);
+  return part.kind === "rung" && part.drawing && point && pinAtPoint(part.drawing, point.x, point.y);
+}
+
+/** Where a click is in the drawing of a part. */
+function pointIn(part: DrawnPart, { target, clientX, clientY }: MouseEvent): { x: number; y: number } | null {
+  const svg = target instanceof Element ? target.closest("svg.draw") : null;
+  if (!svg || !part.drawing) return null;
+  const { left, top, width } = svg.getBoundingClientRect();
+  const scale = width / part.drawing.width;
+  return { x: (clientX - left) / scale, y: (clientY - top) / scale };
+}
+
+/** Where the element at the cursor begins in the file. */
+export function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
+  if (!part) return { line: 1, column: 1 };
+  return inText(part, stopsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
+}
+
+/** What is not connected or written yet, from a place on. */
+export function emptyAfter(found: Found, text: string, place: Place): Empty | null {
+  if (found.kind === "rung") return emptyInRung(found, text, place);
+  const next = found.kind === "chart" ? emptyIn(found, text) : emptyInput(text, place);
+  return next && { place: next, key: "F2" };
+}
+
+/** The first input at or after a place of a network that is not connected; null where there is none. */
+function emptyInput(text: string, [index = 0, pin = 0]: Place): Place | null {
+  const items = diagramOf(text)?.items ?? [];
+  const places = items.flatMap(({ inputs }, item) =>
+    inputs.flatMap((input, at): Place[] => (input.text === NOTHING ? [[item, at]] : [])),
+  );
+  return places.find(([item = 0, at = 0]) => item > index || (item === index && at >= pin)) ?? null;
+}
