@@ -104,14 +104,15 @@ class PlcNetwork:
         if request.network:
             return NO_ROUTE, b""
         found = [each for each in members if each.node == request.node and not each.elsewhere]
-        if len(found) != 1:
-            return (TWICE if found else NO_NODE), b""
+        there = [each for each in found if each.desk is not None] or found[:1]
+        if len(there) != 1:
+            return (TWICE if there else NO_NODE), b""
         made = _frame_of(session, request)
         if made is None:
             return NO_AREA, b""
         if not await own.desk.on_the_way(b"\0") or own.desk.fault.kind in ("cut", "node"):
             raise _Silent
-        frame = await self._sent(own, found[0], request, *made)
+        frame = await self._sent(own, there[0], request, *made)
         if not request.answered:
             return 0, b""
         return _result(request, frame[0], frame[1])

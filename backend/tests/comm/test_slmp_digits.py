@@ -1,4 +1,4 @@
-"""Numbers of SLMP in ASCII code: what is no digit is refused, whatever Python would take as a number."""
+"""Numbers of SLMP in ASCII code: what is no digit is refused, whatever Python would take as a number; and how much a frame may ask for."""
 
 import asyncio
 
@@ -46,3 +46,24 @@ def test_digits_are_read_in_the_base_of_the_device() -> None:
 
 def test_a_number_that_is_cut_off_is_a_wrong_length() -> None:
     assert ask(LocalDoor(machine("Q03UD")), READ, 0, "D*00010000")[1] is End.LENGTH
+
+
+def written(words: int = 0, doubles: int = 0, bits: int = 0, value: str = "01") -> End:
+    """The end code of a random write of so many."""
+    if bits:
+        sub, data = 1, f"{bits:02X}" + "".join(f"M*{at:06d}{value}" for at in range(bits))
+    else:
+        devices = [f"D*{at:06d}0005" for at in range(words)] + [f"D*{at:06d}00000005" for at in range(doubles)]
+        sub, data = 0, f"{words:02X}{doubles:02X}" + "".join(devices)
+    return ask(LocalDoor(machine("Q03UD")), RANDOM_WRITE, sub, data)[1]
+
+
+def test_a_random_write_has_at_most_as_many_devices_as_the_device_takes() -> None:
+    assert [written(words=160), written(words=161), written(words=192)] == [End.OK, End.TOO_MANY, End.TOO_MANY]
+    assert [written(doubles=137), written(doubles=138)] == [End.OK, End.TOO_MANY]
+    assert [written(words=6, doubles=132), written(words=7, doubles=132)] == [End.OK, End.TOO_MANY]
+    assert [written(bits=188), written(bits=189)] == [End.OK, End.TOO_MANY]
+
+
+def test_a_bit_is_0_or_1() -> None:
+    assert written(bits=1, value="02") is End.DATA

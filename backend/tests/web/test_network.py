@@ -33,15 +33,16 @@ END_PROGRAM
 """
 
 
-def at_node(server: Server, instance: int, node: int) -> int:
-    wanted = {"on": True, "host": "127.0.0.1", "port": 0, "access": "write", "node": node, "error_bits": False}
+def at_node(server: Server, instance: int, node: int, on: bool = True) -> int:
+    wanted = {"on": on, "host": "127.0.0.1", "port": 0, "access": "write", "node": node, "error_bits": False}
     reply = server.http.put(f"/api/instances/{instance}/communication/fins", json=wanted)
     assert reply.status_code == 200, reply.text
-    return int(reply.json()["servers"][0]["address"].rpartition(":")[2])
+    return int(reply.json()["servers"][0]["address"].rpartition(":")[2]) if on else 0
 
 
 def test_two_plcs_exchange_data_and_one_is_switched_off(server: Server, tmp_path: Path) -> None:
     one, other = server.instance("asks", "CJ1M-CPU13", main=ASKS), server.instance("answers", "CJ1M-CPU13", main=OTHER)
+    at_node(server, server.instance("off", "CJ1M-CPU13", main=OTHER), 78, on=False)
     first, second = fins(at_node(server, one, 77)), fins(at_node(server, other, 78))
     until(lambda: words(first.memory_area_read("D0", 2)) == [0x42, 0x1234])
     until(lambda: words(second.memory_area_read("D200")) == [0x42])

@@ -15,6 +15,9 @@ from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 _OWN = (0, 0xFF, 0x03FF, 0)
 """The route to the CPU module that is connected."""
 _MOST_WORDS, _MOST_BITS, _MOST_RANDOM = 960, 7168, 192
+_MOST_RANDOM_BITS, _MOST_RANDOM_WRITTEN, _WORD, _DOUBLE = 188, 1920, 12, 14
+"""Of 1402: at most so many bits; and 12 for a word and 14 for a double word are together at most 1920 (MELSEC Communication Protocol
+Reference Manual SH(NA)-080008, random write)."""
 _WORDS, _BITS = 0, 1
 """Subcommands."""
 _MODEL_CODES = {"Q03UD": 0x0268}
@@ -164,17 +167,19 @@ async def on_random_write(door: Door, request: Request, cursor: Cursor) -> bytes
     writes: list[AreaWrite] = []
     if request.sub == _WORDS:
         words, doubles = cursor.number(1), cursor.number(1)
-        _at_most(words + doubles, _MOST_RANDOM)
+        _at_most(_WORD * words + _DOUBLE * doubles, _MOST_RANDOM_WRITTEN)
         for size in [2] * words + [4] * doubles:
             device = read_device(door.model, cursor)
             writes += _word_writes(device, cursor.number(size).to_bytes(size, "little"))
     else:
         _sub(request)
         count = cursor.number(1)
-        _at_most(count, _MOST_RANDOM)
+        _at_most(count, _MOST_RANDOM_BITS)
         for _ in range(count):
-            device = read_device(door.model, cursor)
-            writes += _bit_writes(device, [cursor.number(1) & 1])
+            device, bit = read_device(door.model, cursor), cursor.number(1)
+            if bit > 1:
+                raise Refused(End.DATA)
+            writes += _bit_writes(device, [bit])
     _finished(cursor)
     await _enter(door, WriteAreas(door.author, tuple(writes)))
     return b""
