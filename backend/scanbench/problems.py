@@ -109,7 +109,7 @@ TABLE: dict[str, str] = {
     "W001": "statement without effect",
     "W002": "input or output without an address",
     "W003": "bits copied, where other tools convert the number",
-    "W004": "bytes of a STRING that begin with its length",
+    "W004": "bytes that other tools have otherwise",
     "W005": "character number 0",
     "W006": "construct that only the dialect of the project allows",
     "W007": "statement that is never reached",

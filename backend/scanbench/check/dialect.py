@@ -77,6 +77,7 @@ class Allowance(Enum):
     RECURSION = auto()
     LITERAL_VALUES = auto()
     ADDRESS_OPERATOR = auto()
+    MIXED_ARGUMENTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -396,6 +397,11 @@ RULES: dict[Allowance, Rule] = {
         "`&x` as the address of a variable",
         "`&` joins two operands, as AND",
         "`REF(x)`",
+    ),
+    Allowance.MIXED_ARGUMENTS: Rule(
+        "arguments by position after some by name: they go to those that have no name in the call, in their order",
+        "arguments have names, or are all in their order",
+        "`fill(level := 3, time := t)`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",

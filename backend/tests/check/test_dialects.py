@@ -39,6 +39,10 @@ METHOD reset
 level := 0;
 END_METHOD
 END_FUNCTION_BLOCK
+FUNCTION Part : STRING
+VAR_INPUT text : STRING; count : INT; END_VAR
+Part := LEFT(text, count);
+END_FUNCTION
 PROGRAM Main
 VAR
   b : BYTE; w : WORD; dw : DWORD; i, j : INT; u : UINT; d : DINT; r : REAL; l : LREAL; s : STRING; ok : BOOL; state : State; t : TIME;
@@ -84,6 +88,7 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
     (Allowance.VENDOR_OPERATORS, "i := ANY_TO_INT(d);", "TO_INT(...)"),
+    (Allowance.MIXED_ARGUMENTS, "s := Part(count := 2, s);", "level := 3"),
     (Allowance.LITERAL_VALUES, "numbers := [i, 2];", "numbers[1] := 1;"),
     (Allowance.ADDRESS_OPERATOR, "ok := &i <> NULL;", "REF(i)"),
     (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
@@ -163,6 +168,20 @@ def test_a_combined_assignment_is_of_another_language() -> None:
             assert [(each.code, each.span.column, each.message) for each in found.problems] == [
                 ("S003", 3, "`+=` is of another language; write `x := x + ...`.")
             ]
+
+
+def test_where_a_program_sees_that_times_have_more_bytes_here_is_told() -> None:
+    head = HEAD.replace("PROGRAM Main\nVAR\n", "TYPE Both : UNION t : TIME; w : DWORD; END_UNION END_TYPE\nTYPE Two : STRUCT n : INT; d : DATE; END_STRUCT END_TYPE\nPROGRAM Main\nVAR\n"
+        "  both : Both; two : Two; pt : POINTER TO TIME; pw : POINTER TO DWORD; "
+    )  # fmt: skip
+    body = "i := SIZEOF(two);\ni := SIZEOF(DT);\npw := ADR(t);\npt := ADR(t);\ni := SIZEOF(i);\n"
+    for dialect in DIALECTS.values():
+        sources = with_dialect({"a.st": f"{head}{body}END_PROGRAM\n"}, dialect.name)
+        found = [each for each in check_sources(sources, MODEL).problems if each.code == "W004"]
+        first = LINE + 2
+        lines = [12, first, first + 1, first + 2] if dialect.name in ("codesys", "twincat") else []
+        assert [each.span.line for each in found] == lines, dialect.name
+        assert all("four bytes" in each.message and "_TO_DWORD" in each.message for each in found)
 
 
 def found_in(body: str, dialect: DialectName) -> str:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 from scanbench.check.body import fold, targets
-from scanbench.check.body.allowed import allowed
+from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.direct import as_argument
@@ -89,12 +89,16 @@ def by_formal(
     """Arguments by upper-case formal name. `owner` has the formals."""
     formals = [each for each in formals if not each.hidden]
     given: dict[str, tree.Argument] = {}
-    named = False
     positions = by_position(formals, sum(each.name is None for each in node.arguments))
-    for index, argument in enumerate(node.arguments):
+    if _is_mixed(node):
+        if not allowed(body, Allowance.MIXED_ARGUMENTS, node.span, "Arguments by position come after those by name"):
+            raise body.report.reject("T004", "Arguments by position come before those by name.", node.span)
+        taken = {each.name.upper() for each in node.arguments if each.name is not None}
+        positions = [each for each in positions if each.name.upper() not in taken]
+    index = -1
+    for argument in node.arguments:
         if argument.name is None:
-            if named:
-                raise body.report.reject("T004", "Arguments by position come before those by name.", argument.span)
+            index += 1
             if index >= len(positions):
                 if owner.open or any(name == owner.name.upper() for name, _ in body.declarations.broken):
                     raise Rejected
@@ -103,7 +107,6 @@ def by_formal(
                 )
             given[positions[index].name.upper()] = argument
             continue
-        named = True
         member = _formal(body, argument, argument.name, formals, owner, callee)
         if argument.place is not None:
             body.report.use(argument.place, argument.name, variable_symbol(member, owner))
@@ -113,6 +116,12 @@ def by_formal(
             raise body.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
         given[member.name.upper()] = argument
     return given
+
+
+def _is_mixed(node: tree.Call) -> bool:
+    """Whether an argument by position comes after one by name."""
+    names = [each.name is not None for each in node.arguments]
+    return True in names and False in names[names.index(True) :]
 
 
 def by_position(formals: list[Member], count: int) -> list[Member]:
@@ -314,9 +323,20 @@ def _bindable(body: Body, member: Member, place: Place, value: tree.Expression) 
         told = f"The in-out `{member.name}` is {formal}, and may write any number to `{shown(value)}`"
         if allowed(body, Allowance.ENUM_NUMBERS, value.span, told, f"`{formal.name}_TO_{actual.name}(...)`"):
             return replace(place, type=formal)
+    if _same_bits(actual, formal):
+        told = f"The in-out `{member.name}` is {formal}, and `{shown(value)}` is {actual}"
+        if may(body, Allowance.INTEGER_BITS) and allowed(body, Allowance.BIT_CONVERSION, value.span, told):
+            return replace(place, type=formal)
     raise body.report.reject(
         "T005", f"The in-out `{member.name}` is {formal}; {actual} cannot be bound to it.", value.span
     )
+
+
+def _same_bits(one: Type, other: Type) -> bool:
+    """Whether both are integers or bit strings of one size, and not the same."""
+    kinds = (Kind.INT, Kind.UINT, Kind.BITS)
+    plain = all(type(each) is Elementary and each.kind in kinds for each in (one, other))
+    return plain and one.size == other.size
 
 
 def open_bound(member: Member, places: dict[str, Place]) -> Expr:

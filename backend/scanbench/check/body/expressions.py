@@ -247,7 +247,10 @@ def _part_of_value(body: Body, node: tree.MemberOf | tree.IndexOf) -> Expr | Non
     while value is None and isinstance(inner, tree.MemberOf | tree.IndexOf):
         inner = inner.owner if isinstance(inner, tree.MemberOf) else inner.array
         value = _whole_value(body, inner)
-    if value is None or not isinstance(value.type, Record | ArrayType) or has_instance(value.type):
+    if value is None or value.type is None or has_instance(value.type):
+        return None
+    text = isinstance(value.type, StringType) and isinstance(node, tree.IndexOf)
+    if not text and not isinstance(value.type, Record | ArrayType):
         return None
     kept = body.temporary(value.type, node.span)
     name = kept.variable.rpartition(".")[2]

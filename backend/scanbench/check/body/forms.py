@@ -13,6 +13,7 @@ from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.vendor_forms import UNSUPPORTED, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
+from scanbench.check.vendor_sizes import tell_bytes
 from scanbench.program.program import Const, Expr, Load, Violates
 from scanbench.program.shown import shown
 from scanbench.program.sites import CheckSite
@@ -85,8 +86,11 @@ def _size_of(body: Body, node: tree.Call, name: str) -> Expr:
             raise body.report.reject("T004", "`SIZEOF` takes one variable or type.", node.span)
         return Const(ANY_INT, SLOT_BYTES)
     if isinstance(value, tree.Name) and body.scope.find(value.name) is None:
-        return Const(ANY_INT, body.declarations.named(value.name, value.span).size)
+        named = body.declarations.named(value.name, value.span)
+        tell_bytes(body.report, body.dialect, named, node.span)
+        return Const(ANY_INT, named.size)
     place, _ = body.place(value)
+    tell_bytes(body.report, body.dialect, place.type, node.span)
     if not isinstance(place.type, OpenArray):
         return Const(ANY_INT, place.type.size)
     size: Expr = Const(LINT, place.type.element.size)

@@ -143,6 +143,11 @@ def literal_as(body: Body, expr: Const, type: Elementary, span: Span, what: str)
         if type.kind in (Kind.INT, Kind.UINT, Kind.BITS):
             hint = f" Use TRUNC or LREAL_TO_{type}."
         raise body.report.reject("T002", f"{what} is {type}, but this is the number {value}.{hint}", span)
+    low, high = bounds(type)
+    if type.kind is Kind.INT and high < value <= high - low and may(body, Allowance.INTEGER_BITS):
+        told = f"{what} is {type}, and this is {value}, the bits of {int(value) + 2 * low}"
+        if allowed(body, Allowance.NARROWING, span, told, f"`{int(value) + 2 * low}`"):
+            return Const(type, int(value) + 2 * low)
     return Const(type, _in_range(body, int(value), type, span))
 
 

@@ -33,7 +33,8 @@ def method_called(body: Body, callee: tree.Expression) -> tuple[Receiver, Method
 def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, Method] | None:
     if isinstance(node, tree.Name):
         owner = own_class(body)
-        found = _found(owner, node.name.upper(), half) if owner and _free(body, node.name) else None
+        free = _free(body, node.name) or (not half and _is_action_too(body, node.name))
+        found = _found(owner, node.name.upper(), half) if owner and free else None
         if owner is None or found is None:
             return None
         body.report.use(node.span, node.name, found.symbol)
@@ -55,6 +56,12 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
         raise body.report.reject("T001", f"`{receiver.owner.name}` has no method `{node.name}`.{hint}", node.span)
     body.report.use(node.span, node.name, method.symbol)
     return receiver, method
+
+
+def _is_action_too(body: Body, name: str) -> bool:
+    """Whether a value of this name cannot be called, and an ACTION of the same POU can, as vendors allow."""
+    found = body.scope.find(name)
+    return found is not None and not isinstance(found[0].type, Record) and name.upper() in body.pous.classes.actions
 
 
 def _found(owner: Class, name: str, half: str) -> Method | None:

@@ -6,6 +6,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.lenient import address_number
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
+from scanbench.check.vendor_sizes import tell_bytes
 from scanbench.problems import Span
 from scanbench.program.program import Base, Const, Expr, Load, Place, RefOf
 from scanbench.program.sites import TrapKind
@@ -57,6 +58,8 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
         return Const(NULL, 0)
     if isinstance(expr.type, Reference) and _fits(expr.type, type):
         source = expr.type.target
+        if type.target is not None and source != type.target:
+            tell_bytes(body.report, body.dialect, source, span)
         if isinstance(source, StringType) and source.zero and not isinstance(type.target, StringType):
             used(body, Allowance.STRING_BYTES, span, f"This points to the bytes of a {source}")
         elif isinstance(source, StringType) and type.target is not None and not isinstance(type.target, StringType):

@@ -326,6 +326,8 @@ def _declare_method(
     method, report = Method(owner, declaration), declarations.report
     inherited = record.members.get(declaration.name.upper())
     own = {each.declaration.kind for each in owner.methods.values() if _same_name(each.declaration, declaration)}
+    if ACTION in declaration.modifiers and Allowance.ACTION_ARGUMENTS in declarations.dialect.allows:
+        inherited = None  # a call means the action, and what is no call the variable
     taken = method.key in owner.methods or ("method" in {*own, declaration.kind} and own)
     if taken or inherited is not None:
         report.error("D001", f"`{method.name}` is declared already; rename one.", declaration.span)

@@ -5,6 +5,7 @@ from dataclasses import replace
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import MAX_BYTES, declare
 from scanbench.check.dialect import Allowance
+from scanbench.check.vendor_sizes import tell_bytes
 from scanbench.problems import Span
 from scanbench.program.origin import in_library
 from scanbench.program.types import (
@@ -182,5 +183,14 @@ def structure(declared: Declarations, name: str, spec: tree.StructSpec) -> Recor
         for member in record.members.values():
             if has_instance(member.type):
                 declared.report.error("D008", "An instance of a block cannot share its bytes with others.", member.span)
+        _tell_union(declared, record)
     record.close()
     return record
+
+
+def _tell_union(declared: Declarations, record: Record) -> None:
+    """A time or date that shares its bytes with something else."""
+    members = list(record.members.values())
+    if any(each.type != members[0].type for each in members):
+        for each in members:
+            tell_bytes(declared.report, declared.dialect, each.type, each.span)

@@ -63,6 +63,24 @@ def element(written: str, known: Names) -> Element | None:
     return Element(type, text, left) if type else None
 
 
+def following(written: str, known: Names) -> int:
+    """How many members of one type of number follow each other from this one on, it included: their bytes have no room between."""
+    owner, _, name = written.rpartition(".")
+    found = element(owner, known)
+    members = list(members_of(found.type, known).items()) if found is not None else []
+    names = [each for each, _ in members]
+    if name.upper() not in names:
+        return 0
+    first = names.index(name.upper())
+    type, sizes = members[first][1]
+    count = 0
+    for _, declared in members[first:]:
+        if sizes or declared != (type, sizes) or type not in NUMBERS:
+            break
+        count += 1
+    return count
+
+
 def members_of(type: str, known: Names) -> Mapping[str, Declared]:
     """The members of a structure, by name."""
     return _TEXT if type == "STRING" else known.members.get(type, {})

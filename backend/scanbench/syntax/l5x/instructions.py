@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 
 from scanbench.syntax.l5x import notes
-from scanbench.syntax.l5x.elements import FILLED, PACKED, element, same_bytes
+from scanbench.syntax.l5x.elements import FILLED, PACKED, element, following, same_bytes
 from scanbench.syntax.l5x.known import Known
 from scanbench.syntax.l5x.names import CONTROLLER, LIBRARY
 
@@ -21,10 +21,13 @@ def copied(known: Known, tell: Tell, given: list[str]) -> str:
     if one is None or other is None or not same_bytes(one.type, other.type, known):
         tell(notes.other_bytes(f"COP({', '.join(given)})"))
         return f"COP({', '.join(given)})"
-    if "." in other.text and length.isdigit() and other.left.isdigit() and int(length) > int(other.left):
-        tell(notes.other_bytes(f"COP({', '.join(given)})"))  # there it goes on into the members that follow
-        return f"COP({', '.join(given)})"
-    size = f"MIN({length}, {other.left}) * SIZEOF({other.text})"
+    left = other.left
+    if "." in other.text and length.isdigit() and left.isdigit() and int(length) > int(left):
+        left = str(following(destination, known))  # there it goes on into the members that follow
+        if int(length) > int(left):
+            tell(notes.other_bytes(f"COP({', '.join(given)})"))
+            return f"COP({', '.join(given)})"
+    size = f"MIN({length}, {left}) * SIZEOF({other.text})"
     if one.type != other.type or one.left != other.left:
         size = f"MIN({size}, ({one.left}) * SIZEOF({one.text}))"
     return f"{LIBRARY}.COP(ADR({one.text}), ADR({other.text}), {size})"

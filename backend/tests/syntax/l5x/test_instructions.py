@@ -20,7 +20,7 @@ TAGS = {
     "Bit": "BOOL", "First": "BOOL", "Clock": "DINT[7]", "Stamp": "LINT", "Halves": "DINT[2]", "Scan": "DINT", "Field": "FBD_BIT_FIELD_DISTRIBUTE",
     "Move": "FBD_MASKED_MOVE", "Flop": "FLIP_FLOP_D", "Range": "SCALE", "Limits": "HL_LIMIT", "Call": "MESSAGE", "Axis1": "AXIS_CIP_DRIVE",
     "Motion": "MOTION_INSTRUCTION", "Own": "Unit", "Speed": "DINT", "Order": "DINT", "Text": "STRING",
-    "Short": "Str8", "Tiny": "Str3", "Long": "Str200", "Holder": "Holder",
+    "Short": "Str8", "Tiny": "Str3", "Long": "Str200", "Holder": "Holder", "Trio": "Trio",
 }  # fmt: skip
 TYPES = (
     '<DataType Name="Pair"><Members><Member Name="A" DataType="DINT" Dimension="0" Hidden="false"/>'
@@ -34,6 +34,10 @@ TYPES += "".join(
 TYPES += (
     '<DataType Name="Holder"><Members><Member Name="Label" DataType="Str8" Dimension="2" Hidden="false"/>'
     '<Member Name="Note" DataType="Str200" Dimension="0" Hidden="false"/></Members></DataType>'
+)
+TYPES += (
+    '<DataType Name="Trio"><Members><Member Name="A" DataType="DINT" Dimension="0" Hidden="false"/>'
+    '<Member Name="B" DataType="INT" Dimension="0" Hidden="false"/><Member Name="C" DataType="INT" Dimension="0" Hidden="false"/></Members></DataType>'
 )
 UNIT = """<AddOnInstructionDefinition Name="Unit"><Parameters>
 <Parameter Name="On" TagType="Alias" DataType="BOOL" Usage="Input" AliasFor="Own.Run" Required="false"/>
@@ -55,6 +59,9 @@ Pair.A := 7; Pair.B := 2.5; COP(Pair, Pairs[1], 1); COP(Pair, Copies[0], 2); COP
     "TextsOfOwnTypes": """Short := 'Pump'; CONCAT(Short, '-12345', Short); FIND(Short, '-1', 1, Count); STOD(Short, Index);
 MID(Short, 9, 3, Tiny); DTOS(-1234567890, Holder.Label[1]); Holder.Label[0] := ''; UPPER(Short, One); Holder.Note := 'spare';
 IF Index < 0 THEN DELETE(Short, 4, 1, Short); ELSE Short := 'no'; END_IF; INSERT(Tiny, Short, 2, Two); SIZE(Holder.Note.DATA, 0, Speed);""",
+    "LongTexts": """Long := 'ab'; FOR Index := 1 TO 6 DO CONCAT(Long, Long, Long); END_FOR; INSERT(Long, '-17', 101, Holder.Note); FIND(Holder.Note, '17', 1, Count);
+STOD(Holder.Note, Speed); MID(Holder.Note, 4, 100, Short); UPPER(Short, Holder.Note); CONCAT(One, Holder.Note, One); Same := Short = Tiny; Bit := Long > Short; Less := Tiny = '';
+Bytes[0] := 1; Bytes[2] := 2; COP(Bytes[0], Trio.B, 2);""",
     "ABitMay": """Index := 30; Flags.[Index + 1] := 1; Flags.[2] := NOT Same; Bit := Flags.[Index]; First := Flags.31 AND Flags.[Index + 1];""",
     "BytesChangePlaces": """Small := 16#1234; SWPB(Small, REVERSE, Small); Order := 16#01020304;
 SWPB(Order, REVERSE, Numbers[0]); SWPB(Order, WORD, Numbers[1]); SWPB(Order, HIGH_LOW, Numbers[2]); SIZE(Numbers[0], 0, Count);
@@ -150,6 +157,15 @@ def test_texts_of_own_types_are_taken_and_made_up_to_their_size(line: BothEngine
     assert values(line, program, "Short.DATA[4]") == ["0"]
 
 
+def test_texts_of_more_than_82_characters_are_joined_and_texts_of_own_types_compared(line: BothEngines) -> None:
+    program = "LongTexts"
+    assert values(line, program, "Count", "Speed", "Same", "Bit", "Less") == ["102", "-17", "FALSE", "FALSE", "TRUE"]
+    assert text_in(line, program, "Long") == "ab" * 64
+    assert text_in(line, program, "Holder.Note") == "B-17"
+    assert text_in(line, program, "One") == 3 * "B-17"
+    assert values(line, program, "Trio.A", "Trio.B", "Trio.C") == ["0", "1", "2"]
+
+
 def text_in(line: BothEngines, program: str, name: str) -> str:
     size = int(values(line, program, f"{name}.LEN")[0])
     return "".join(chr(int(each)) for each in values(line, program, *(f"{name}.DATA[{at}]" for at in range(size))))
@@ -157,13 +173,13 @@ def text_in(line: BothEngines, program: str, name: str) -> str:
 
 def test_what_texts_and_copies_of_own_types_cannot_keep_stays_as_it_is() -> None:
     members: dict[str, dict[str, tuple[str, Sequence[int]]]] = {
-        "STR200": {"LEN": ("DINT", ()), "DATA": ("SINT", (200,))},
+        "STR9000": {"LEN": ("DINT", ()), "DATA": ("SINT", (9000,))},
         "PAIR": {"A": ("DINT", ()), "B": ("DINT", ())},
     }
-    known = Known(types={"LONG": ("STR200", ()), "PAIR": ("PAIR", ()), "BYTES": ("SINT", (8,))}, members=members)
+    known = Known(types={"HUGE": ("STR9000", ()), "PAIR": ("PAIR", ()), "BYTES": ("SINT", (8,))}, members=members)
     told: list[str] = []
-    written = statements("CONCAT(Long, 'a', Long); COP(Bytes[0], Pair.A, 2); SIZE(Pair.A, 0, n);", known, told)
-    assert written == "Logix.CONCAT(Long, Logix.TEXT('a'), Long); COP(Bytes[0], Pair.A, 2); SIZE(Pair.A, 0, n);"
+    written = statements("CONCAT(Huge, 'a', Huge); COP(Bytes[0], Pair.A, 3); SIZE(Pair.A, 0, n);", known, told)
+    assert written == "Logix.CONCAT(Huge, Logix.TEXT('a'), Huge); COP(Bytes[0], Pair.A, 3); SIZE(Pair.A, 0, n);"
     assert len(told) == 2
 
 
