@@ -170,6 +170,17 @@ def test_a_combined_assignment_is_of_another_language() -> None:
             ]
 
 
+@pytest.mark.parametrize(
+    "text", ["f : Flags := (b := ok);", "f : Flags; END_VAR f := (b := ok); IF ok THEN RETURN; END_IF"]
+)
+def test_a_bit_that_shares_its_byte_starts_with_no_computed_value(text: str) -> None:
+    head = "TYPE Flags : STRUCT a, b : BIT; END_STRUCT END_TYPE\nPROGRAM Main\nVAR ok : BOOL; "
+    end = "" if "END_VAR" in text else " END_VAR"
+    found = check_sources(with_dialect({"a.st": f"{head}{text}{end}\nEND_PROGRAM\n"}, "codesys"), MODEL)
+    assert [each.code for each in found.problems if each.severity is Severity.ERROR] == ["D004"]
+    assert found.program is None
+
+
 def test_where_a_program_sees_that_times_have_more_bytes_here_is_told() -> None:
     head = HEAD.replace("PROGRAM Main\nVAR\n", "TYPE Both : UNION t : TIME; w : DWORD; END_UNION END_TYPE\nTYPE Two : STRUCT n : INT; d : DATE; END_STRUCT END_TYPE\nPROGRAM Main\nVAR\n"
         "  both : Both; two : Two; pt : POINTER TO TIME; pw : POINTER TO DWORD; "

@@ -147,7 +147,12 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
             raise declared.report.reject("D004", f"`{name}` is given twice.", span)
         named.add(name.upper())
         member = _member(declared, type, name, span, (Section.IN_OUT,))
+        before = len(declared.given)
         _put(image, member.offset, member.bit, _inside(declared, item, member.type, member.offset, name))
+        if member.bit is not None and any(isinstance(each, StartExpression) for each in declared.given[before:]):
+            raise declared.report.reject(
+                "D004", f"`{name}` shares its byte with others: its value is a constant here.", span
+            )
     return bytes(image)
 
 
