@@ -6,11 +6,13 @@ the PLC restarts: somebody has to mend it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, get_args
 
+from scanbench.faults.shapes import Shape, Wanted, flaw, lasts
 from scanbench.plcmodel.model import Model
 from scanbench.public import Public
+from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Category, Command, Entry, Plan, Refusal, View
 from scanbench.runtime.journal import Fold
 
@@ -39,6 +41,17 @@ class LineFault(Public):
     `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a
     different node number than its clients believe, so that their requests reach nobody."""
     late_ms: int = 1000
+    scans: int | None = None
+    """It is there for so many scans; None: until somebody mends the line."""
+    period: int | None = None
+    """With `scans`: it comes again every so many scans, until somebody mends the line; None: it comes once."""
+
+    @property
+    def shape(self) -> Shape:
+        """As that of other errors."""
+        if self.scans is None:
+            return Shape()
+        return Shape("for", self.scans) if self.period is None else Shape("intermittent", self.scans, self.period)
 
 
 NO_FAULT = LineFault()
@@ -57,6 +70,17 @@ class BrokenLine(Public):
     fault: LineFault
     by: str
     scan: int
+    present: bool = True
+    """False between two times of a fault that comes again."""
+    due: int | None = None
+    """Before which scan it goes, or comes again; None: it stays."""
+    step: int = 0
+    """How often it has come and gone: even while it is there."""
+
+    @property
+    def now(self) -> LineFault:
+        """What clients meet."""
+        return self.fault if self.present else NO_FAULT
 
 
 def servers_of(model: Model) -> tuple[ServerKind, ...]:
@@ -91,8 +115,38 @@ class BreakLine(Command):
             return Refusal("a plant has no node number of the PLC: choose a different fault")
         if self.fault.kind == "none":
             return Refusal("no fault is given: MendLine takes one back")
-        late = f"answers come {self.fault.late_ms} ms late"
-        return Plan((), f"line of {name}: {_TOLD.get(self.fault.kind, late)}")
+        shape = self.fault.shape
+        wrong = "say for how many scans it is there each time" if self._only_period else flaw(Wanted((), shape=shape))
+        if wrong:
+            return Refusal(wrong)
+        told = _TOLD.get(self.fault.kind, f"answers come {self.fault.late_ms} ms late")
+        if shape.kind == "for":
+            told = f"{told}, for {shape.scans} scans"
+        elif shape.kind == "intermittent":
+            told = f"{told}, {shape.scans} of every {shape.period} scans"
+        return Plan((), f"line of {name}: {told}")
+
+    @property
+    def _only_period(self) -> bool:
+        return self.fault.period is not None and self.fault.scans is None
+
+
+@dataclass(frozen=True, slots=True)
+class LineStep(Command):
+    """A fault of a line goes, or comes again, as its shape has it."""
+
+    category: ClassVar[Category] = "error"
+
+    server: LineKind
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Nothing in memory."""
+        name, line = LINE_NAMES[self.server], view.derived(BROKEN_LINES).get(self.server)
+        if line is None or line.due is None:
+            return Refusal(f"the line of {name} has no fault that comes and goes")
+        return Plan(
+            (), f"line of {name}: the fault is gone" if line.present else f"line of {name}: the fault is there again"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,14 +164,47 @@ class MendLine(Command):
         return Plan((), f"line of {name}: nothing was wrong" if whole else f"line of {name}: nothing is wrong any more")
 
 
+def _next(line: BrokenLine, scan: int) -> BrokenLine:
+    """After its next step, which was entered before `scan`."""
+    shape, step = line.fault.shape, line.step + 1
+    due = None if shape.kind == "stay" else scan + lasts(shape, step)
+    return replace(line, step=step, present=step % 2 == 0, due=due)
+
+
 def _step(broken: Mapping[str, BrokenLine], entry: Entry) -> Mapping[str, BrokenLine]:
     match entry.command:
         case BreakLine() as made:
-            return {**broken, made.server: BrokenLine(made.server, made.fault, made.author, entry.scan)}
+            first = BrokenLine(made.server, made.fault, made.author, entry.scan, step=-1)
+            return {**broken, made.server: _next(first, entry.scan)}
+        case LineStep() as made if made.server in broken:
+            line = broken[made.server]
+            if line.present and line.fault.period is None:
+                return {kind: each for kind, each in broken.items() if kind != made.server}
+            return {**broken, made.server: _next(line, entry.scan)}
         case MendLine() as made if made.server in broken:
             return {kind: each for kind, each in broken.items() if kind != made.server}
     return broken
 
 
 BROKEN_LINES: Fold[Mapping[str, BrokenLine]] = Fold({}, _step)
-"""Those that something is wrong with, by server."""
+"""Those that something is wrong with, by server; one whose fault comes again, also while it is gone."""
+
+
+class Lines:
+    """`runtime.agenda.Agenda` of faults that come and go."""
+
+    def due(self, view: View, met: Met) -> Command | None:
+        """The first step whose scan has come."""
+        for each in view.derived(BROKEN_LINES).values():
+            if each.due is not None and each.due <= view.header.scan:
+                return LineStep(each.by, each.server)
+        return None
+
+    def refused(self, command: Command, refusal: Refusal) -> Command:
+        """What is due here was looked at before."""
+        raise ValueError(f"{command} was refused: {refusal.message}")
+
+    def waits(self, view: View) -> Waits:
+        """The next step."""
+        dues = [each.due for each in view.derived(BROKEN_LINES).values() if each.due is not None]
+        return Waits(min(dues)) if dues else NOTHING

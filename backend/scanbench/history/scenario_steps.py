@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.line_faults import BreakLine, MendLine
+from scanbench.faults.line_faults import BreakLine, LineStep, MendLine
 from scanbench.history.rerun_plan import comes_by_itself
 from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.plcmodel.model import Model
@@ -62,12 +62,21 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
             yield f"mode {mode}"
         case Restart(kind=kind):
             yield f"restart {kind}"
-        case BreakLine(server=server, fault=fault):
-            yield f"break {server}={fault.kind}" + (f" {fault.late_ms}" if fault.kind == "late" else "")
-        case MendLine(server=server):
-            yield f"mend {server}"
+        case BreakLine() | LineStep() | MendLine():
+            yield from _of_lines(command)
         case _:
             yield from _of_clients(command, model)
+
+
+def _of_lines(command: BreakLine | LineStep | MendLine) -> Iterator[str]:
+    if isinstance(command, MendLine):
+        yield f"mend {command.server}"
+    elif isinstance(command, BreakLine):  # a step comes by itself
+        fault = command.fault
+        late = f" {fault.late_ms}" if fault.kind == "late" else ""
+        scans = "" if fault.scans is None else f" for {fault.scans}"
+        period = "" if fault.period is None else f" of {fault.period}"
+        yield f"break {command.server}={fault.kind}{late}{scans}{period}"
 
 
 def _of_clients(command: Command, model: Model) -> Iterator[str]:

@@ -280,7 +280,7 @@ class Communication:
 
     async def _bring_up_to_date(self, unit: _Unit) -> None:
         async with unit.turning:
-            faults = {each.server: each.fault for each in unit.session.errors.lines}
+            faults = {each.server: each.now for each in unit.session.errors.lines}
             for kind in lines_of(unit.session.model):
                 if self._units.get(unit.session.id) is unit:
                     await self._apply(unit, kind, faults.get(kind, NO_FAULT))

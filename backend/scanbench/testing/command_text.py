@@ -85,16 +85,23 @@ def _restart(_: Program, text: str) -> Command:
     return Restart(AUTHOR, kinds[text.lower()])
 
 
+_FAULT = re.compile(r"(?P<kind>[\w-]+)(?:\s+(?P<late>\d+))?(?:\s+for\s+(?P<scans>\d+)(?:\s+of\s+(?P<period>\d+))?)?")
+
+
 def _break(program: Program, text: str) -> Command:
-    server, equals, fault = text.partition("=")
-    kind, _, late = fault.strip().partition(" ")
-    if not equals or (late and not late.strip().isdecimal()):
-        raise BadCommand("break SERVER=FAULT, as in break fins=cut, or break modbus=late 500 (ms)")
+    server, equals, told = text.partition("=")
+    found = _FAULT.fullmatch(told.strip())
+    if not equals or found is None:
+        raise BadCommand(
+            "break SERVER=FAULT, as in break fins=cut, break modbus=late 500 (ms), break fins=silent for 20 (scans), or break fins=silent for 20 of 100"
+        )
     known = {each.kind: each for each in map(LineFault, _FAULTS)}
-    if kind not in known:
-        raise BadCommand(f"there is no fault {kind!r} of a line: they are {', '.join(known)}")
-    found = known[kind] if not late else replace(known[kind], late_ms=int(late))
-    return _possible(program, BreakLine(AUTHOR, _server(server), found))
+    if found["kind"] not in known:
+        raise BadCommand(f"there is no fault {found['kind']!r} of a line: they are {', '.join(known)}")
+    fault = known[found["kind"]]
+    late, scans, period = (int(found[each]) if found[each] else None for each in ("late", "scans", "period"))
+    wanted = replace(fault, late_ms=fault.late_ms if late is None else late, scans=scans, period=period)
+    return _possible(program, BreakLine(AUTHOR, _server(server), wanted))
 
 
 def _mend(program: Program, text: str) -> Command:

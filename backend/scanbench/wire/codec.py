@@ -33,7 +33,7 @@ from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.faults.inject import INSTANCES, Generate, Recover
-from scanbench.faults.line_faults import BROKEN_LINES, BreakLine, BrokenLine, LineFault, MendLine
+from scanbench.faults.line_faults import BROKEN_LINES, BreakLine, BrokenLine, LineFault, LineStep, MendLine
 from scanbench.faults.network import WAITING, NetworkAnswer, NetworkRequest, PortsReady
 from scanbench.faults.present import Active, Raised
 from scanbench.faults.preview import PreviewedWrite
@@ -119,7 +119,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, variables.DescribeVariables, variables.VariablesDescribed, AreaWrite, WriteAreas, CopyAreas, VariableWrite, WriteVariables, NetworkRequest, NetworkAnswer, PortsReady, LineFault, BreakLine, MendLine, BrokenLine, Acknowledge, Remark, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, variables.DescribeVariables, variables.VariablesDescribed, AreaWrite, WriteAreas, CopyAreas, VariableWrite, WriteVariables, NetworkRequest, NetworkAnswer, PortsReady, LineFault, BreakLine, LineStep, MendLine, BrokenLine, Acknowledge, Remark, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,

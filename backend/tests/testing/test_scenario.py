@@ -205,13 +205,13 @@ def test_a_recorded_line_cut_and_what_a_client_wrote_are_steps_that_play(
     model = resource.program.layout.model
     plan = Plan((), "")
     commands = (
-        BreakLine("Ada", "fins", LineFault("cut")), BreakLine("Ada", "modbus", LineFault("late", 500)), MendLine("Ada", "fins"),
+        BreakLine("Ada", "fins", LineFault("cut")), BreakLine("Ada", "modbus", LineFault("late", 500, 2, 4)), MendLine("Ada", "fins"),
         WriteAreas("plant", (AreaWrite("D", 401, b"\x00"), AreaWrite("D", 400, b"\x07\x00\x03"))),
     )  # fmt: skip
     entries = [Entry(at, datetime(2026, 1, 1, tzinfo=UTC), each, plan) for at, each in enumerate(commands, 5)]
     made = from_run(entries, 20, model, [("D200", "16#0007")])
     told = [each.do for each in made.steps]
-    assert told[:3] == ["break fins=cut", "break modbus=late 500", "mend fins"]
+    assert told[:3] == ["break fins=cut", "break modbus=late 500 for 2 of 4", "mend fins"]
     assert told[3:11] == [f"write D200.{bit:02}=FALSE" for bit in range(8, 16)]
     assert told[11] == "write D200=16#0007"
     assert told[12:14] == ["write D201.00=TRUE", "write D201.01=TRUE"]

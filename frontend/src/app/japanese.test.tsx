@@ -100,7 +100,7 @@ function busy(server: FakeServer): void {
     answers: "",
     ranges: [],
   };
-  const fault = { kind: "none" as const, late_ms: 1000 };
+  const fault = { kind: "none" as const, late_ms: 1000, scans: null, period: null };
   const plant = { settings, fault, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
   const published = { on: false, host: "127.0.0.1", port: 1883, sparkplug: false, prefix: "scanbench", every_ms: 1000 };
   const mqtt = {

@@ -3520,7 +3520,17 @@ export interface components {
         BrokenLine: {
             /** By */
             by: string;
+            /**
+             * Due
+             * @description Before which scan it goes, or comes again; None: it stays.
+             */
+            due: number | null;
             fault: components["schemas"]["CommunicationFault"];
+            /**
+             * Present
+             * @description False between two times of a fault that comes again.
+             */
+            present: boolean;
             /** Scan */
             scan: number;
             /**
@@ -3528,6 +3538,11 @@ export interface components {
              * @enum {string}
              */
             server: "fins" | "slmp" | "modbus" | "opcua" | "plant";
+            /**
+             * Step
+             * @description How often it has come and gone: even while it is there.
+             */
+            step: number;
         };
         /**
          * Build
@@ -4131,6 +4146,18 @@ export interface components {
              * @default 1000
              */
             late_ms: number;
+            /**
+             * Period
+             * @description With `scans`: it comes again every so many scans, until somebody mends the line; None: it comes once.
+             * @default null
+             */
+            period: number | null;
+            /**
+             * Scans
+             * @description It is there for so many scans; None: until somebody mends the line.
+             * @default null
+             */
+            scans: number | null;
         };
         /**
          * CommunicationFrame

@@ -27,6 +27,10 @@ class CommunicationFault(TypedDict):
     kind: NotRequired[Literal["none", "silent", "late", "cut", "refused", "node"]]
     """silent: the PLC does what it was asked, and no answer comes, so that clients run into their time limit. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a different node number than its clients believe, so that their requests reach nobody."""
     late_ms: NotRequired[int]
+    scans: NotRequired[int | None]
+    """It is there for so many scans; None: until somebody mends the line."""
+    period: NotRequired[int | None]
+    """With `scans`: it comes again every so many scans, until somebody mends the line; None: it comes once."""
 
 
 class CommunicationClient(TypedDict):

@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { hasNodes } from "../../../logic/plc/lines";
+import { hasNodes, lastsWord } from "../../../logic/plc/lines";
 import { breakLine, useCommunication } from "../../../store/plc/communication";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
@@ -11,6 +11,7 @@ import "./lines.css";
 
 const KINDS = ["cut", "silent", "refused", "node"] as const;
 const LATE = [100, 1000, 5000] as const;
+const STAYS = { late_ms: 1000, scans: null, period: null } as const;
 
 /** Faults of the lines between the PLC and clients of its communication unit, or to its plant: a group of its own, as no error memory has them. */
 export function Lines({ servers }: { servers: readonly ServerKind[] }) {
@@ -51,12 +52,12 @@ function Line({ kind, broken }: { kind: LineKind; broken: BrokenLine | undefined
     ...KINDS.filter((each) => each !== "node" || hasNodes(kind)).map((each) => ({
       label: t(`communication.fault.${each}`),
       checked: broken?.fault.kind === each,
-      onSelect: raise({ kind: each, late_ms: 1000 }),
+      onSelect: raise({ ...STAYS, kind: each }),
     })),
     ...LATE.map((late_ms) => ({
       label: t("lines.late", { ms: late_ms }),
       checked: broken?.fault.kind === "late" && broken.fault.late_ms === late_ms,
-      onSelect: raise({ kind: "late", late_ms }),
+      onSelect: raise({ ...STAYS, kind: "late", late_ms }),
     })),
   ];
   return (
@@ -69,7 +70,7 @@ function Line({ kind, broken }: { kind: LineKind; broken: BrokenLine | undefined
           tone="generated"
           icon="generated"
           word={faultWord(broken.fault)}
-          title={t("lines.by", { by: broken.by, scan: broken.scan })}
+          title={[lastsWord(broken.fault), t("lines.by", { by: broken.by, scan: broken.scan })].join("; ")}
         />
       )}
       {broken && (
@@ -79,7 +80,7 @@ function Line({ kind, broken }: { kind: LineKind; broken: BrokenLine | undefined
           aria-label={t("lines.mend.of", { name })}
           disabled={forbidden !== null}
           title={forbidden ?? undefined}
-          onClick={raise({ kind: "none", late_ms: 1000 })}
+          onClick={raise({ ...STAYS, kind: "none" })}
         >
           {t("lines.mend")}
         </button>
