@@ -263,9 +263,11 @@ def _same_text(old: Type, new: Type) -> bool:
 
 
 def _same_numbers(old: Type, new: Type) -> bool:
-    """An enumeration that got more values, a subrange with other bounds: the numbers mean the same."""
-    return (
-        isinstance(old, Enumeration | Subrange)
-        and isinstance(new, Enumeration | Subrange)
-        and (old.name, old.kind, old.size) == (new.name, new.kind, new.size)
-    )
+    """An enumeration that got more values at its end, a subrange with other bounds: the numbers mean the same."""
+    if not isinstance(old, Enumeration | Subrange) or not isinstance(new, Enumeration | Subrange):
+        return False
+    if (old.name, old.kind, old.size) != (new.name, new.kind, new.size):
+        return False
+    if not isinstance(old, Enumeration) or not isinstance(new, Enumeration):
+        return True
+    return all(new.number(name) in (number, None) for name, number in old.values)

@@ -61,6 +61,24 @@ def test_what_would_be_lost_is_known_before() -> None:
     assert not changes(program(OLD), program(OLD)).lost
 
 
+@pytest.mark.parametrize(
+    ("values", "kept"),
+    [
+        ("red, green, blue, white", True),
+        ("red, GRUEN, blue", True),
+        ("red, orange, green, blue", False),
+        ("red, blue", False),
+    ],
+)
+def test_a_value_of_an_enumeration_goes_over_where_its_number_means_the_same(values: str, kept: bool) -> None:
+    text = "TYPE E : (red, green, blue); END_TYPE\nPROGRAM Main VAR e : E; list : ARRAY[1..2] OF E; END_VAR END_PROGRAM"
+    lost = changes(program(text), program(text.replace("red, green, blue", values))).lost
+    shown = {each.path: each.reason for each in lost}
+    assert shown == (
+        {} if kept else {"Main.e": "E is declared otherwise", "Main.list": "ARRAY[1..2] OF E is declared otherwise"}
+    )
+
+
 def test_a_program_more_or_less() -> None:
     two = OLD + "PROGRAM Other VAR k : INT; END_VAR k := k + 1; END_PROGRAM\n"
     assert [(each.path, each.reason) for each in changes(program(OLD), program(two)).lost] == [("Other", "new")]
