@@ -130,7 +130,8 @@ def _same(stretches: Sequence[_Stretch], only: Sequence["_Only"], left_out: Left
             f"what only one has, or has otherwise, was not compared ({left:,})"
         )
     if only:
-        text += f", although {'1 command is' if len(only) == 1 else f'{len(only)} commands are'} only in one of them"
+        text += ", although 1 command is only in one of them" if len(only) == 1 else ""
+        text += f", although {len(only)} commands are only in one of them" if len(only) > 1 else ""
     told = tuple(each.told for each in only[:MAX_ENTRIES])
     return Divergence(count, first, last, None, "", text, None, None, told, same=same)
 
