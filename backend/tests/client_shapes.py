@@ -12,10 +12,13 @@ FOLDER = Path(__file__).parents[1] / "scanbench" / "client" / "shapes"
 FILES = {
     "running": (
         "the PLC and its values",
-        "AppInfo Instance ImportedInstance Value CommandResult ForceInfo Binding LogPage Watching",
+        "AppInfo Instance ImportedInstance Value CommandResult ForceInfo Binding LogPage Watching Symbol",
     ),
-    "errors": ("errors", "DeviceErrors ArmedFault ErrorHistoryRow FaultStart FaultShape"),
-    "sweeps": ("how programs react to errors", "Reaction ProgramState SweepSummary Sweep"),
+    "errors": (
+        "errors",
+        "DeviceErrors ArmedFault ErrorHistoryRow FaultStart FaultShape PreviewedErrors HistoryVersion HistoryOfVersion",
+    ),
+    "sweeps": ("how programs react to errors", "Reaction ProgramState SweepSummary Sweep Accepted SweepComparison"),
     "past": (
         "the past of a run, what was reached, and what left its subrange",
         "LastWriter RunChanges Comparison Rerun WhatIf Diagnostics Coverage",
@@ -23,12 +26,12 @@ FILES = {
     "disturbances": ("disturbances, and campaigns of them", "DisturbanceInfo CampaignState WholeCampaign"),
     "verification": (
         "verifications",
-        "VerificationInfo UploadedTrace TraceMapping VerifyRows SetCell VerificationRecord",
+        "VerificationInfo UploadedTrace TraceMapping VerifyRows SetCell VerificationRecord VerifyUse SavedMapping",
     ),
     "debugging": ("breakpoints", "BreakpointInfo"),
     "communication": (
         "the communication unit",
-        "Communication PlantSettings CommunicationServerSettings MqttSettingsGiven",
+        "Communication PlantSettings CommunicationServerSettings MqttSettingsGiven CommunicationFault",
     ),
     "traces": ("traces", "TraceInfo TraceTrigger TraceRecordInfo Retrospective"),
 }

@@ -30,6 +30,13 @@ class Communication(Asks):
         return self._send(shapes.Communication, "PUT", "communication/plant", {"on": True, **wanted})
 
     @asked
+    def break_line(
+        self, line: Literal["fins", "slmp", "modbus", "opcua", "plant"], /, **fault: Unpack[shapes.CommunicationFault]
+    ) -> Steps[shapes.Communication]:
+        """Lets something be wrong with the line to the clients of a server or to the plant; without a fault, nothing any more."""
+        return self._send(shapes.Communication, "PUT", f"communication/{line}/fault", fault)
+
+    @asked
     def publish_by_mqtt(self, **wanted: Unpack[shapes.MqttSettingsGiven]) -> Steps[shapes.Communication]:
         """Publishes variables to a broker: `host`, `port`, `sparkplug`, `prefix`, `every_ms` and `variables`; `user`, `password`, `tls`,
         `ca` and `identity` where it wants them; ends that with `on=False`."""

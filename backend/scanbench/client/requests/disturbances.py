@@ -43,6 +43,11 @@ class Disturbances(Asks, Generic[PlcT]):
         """Takes these disturbances back, or all."""
         return self._command("commands", {"type": "calm", "ids": list(ids) or None})
 
+    @asked_value
+    def campaigns(self) -> Steps[list[shapes.CampaignState]]:
+        """The campaigns of this PLC, the newest first."""
+        return self._get(list[shapes.CampaignState], "campaigns")
+
     @asked
     def begin_campaign(
         self, count: int = 100, *, seed: int = 1, first: int | None = None, last: int | None = None, window: int = 100,

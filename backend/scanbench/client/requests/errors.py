@@ -1,6 +1,7 @@
 """Errors: raise and recover them, arm them, read what the device says, clear it as a tool does."""
 
 from collections.abc import Mapping
+from typing import Literal
 from urllib.parse import quote
 
 from scanbench.client.asking import Steps, asked, asked_value
@@ -18,6 +19,11 @@ class Errors(Asks):
         return self._command("errors/generate", {"errors": [_error(error, details)]})
 
     @asked
+    def preview(self, /, error: str, **details: Value) -> Steps[shapes.PreviewedErrors]:
+        """What raising it would write now; nothing is changed."""
+        return self._send(shapes.PreviewedErrors, "POST", "errors/preview", {"errors": [_error(error, details)]})
+
+    @asked
     def recover(self, *errors: str) -> Steps[str]:
         """Recovers these errors, or all."""
         return self._command("errors/recover", {"ids": list(errors) or None})
@@ -32,6 +38,23 @@ class Errors(Asks):
     def errors(self) -> Steps[list[shapes.ErrorHistoryRow]]:
         """The error history, in the order of the catalogue: which errors were raised in this version, and with what verdict."""
         return self._get(list[shapes.ErrorHistoryRow], "errors")
+
+    @asked_value
+    def history_versions(self) -> Steps[list[shapes.HistoryVersion]]:
+        """The versions of the program that have an error history here, the newest first."""
+        return self._get(list[shapes.HistoryVersion], "history/versions")
+
+    @asked
+    def history(self, version: int | None = None) -> Steps[shapes.HistoryOfVersion]:
+        """The error history of a version of the program, or of the one that runs."""
+        return self._get(shapes.HistoryOfVersion, "history", version=version)
+
+    @asked
+    def test_record(
+        self, format: Literal["csv", "html", "xml", "json"] = "html", version: int | None = None
+    ) -> Steps[bytes]:
+        """The test record of a version of the program, or of the one that runs, as a file."""
+        return self._fetch("record", format=format, version=version)
 
     @asked
     def clear(self, what: str | int = "current") -> Steps[str]:

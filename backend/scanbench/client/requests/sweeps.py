@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from scanbench.client.asking import Steps, asked
 from scanbench.client.requests.base import Asks, waited
 from scanbench.client.shapes import sweeps as shapes
+from scanbench.client.shapes.running import Instance
 
 
 class Sweeps(Asks):
@@ -40,6 +41,48 @@ class Sweeps(Asks):
     def cancel_sweep(self, number: int) -> Steps[shapes.SweepSummary]:
         """Stops a sweep; what it found is kept."""
         return self._send(shapes.SweepSummary, "POST", f"/api/sweeps/{number}/cancel")
+
+    @asked
+    def resume_sweep(self, number: int) -> Steps[shapes.SweepSummary]:
+        """Goes on with the cells that are missing."""
+        return self._send(shapes.SweepSummary, "POST", f"/api/sweeps/{number}/resume")
+
+    @asked
+    def delete_sweep(self, number: int) -> Steps[None]:
+        """Deletes a sweep; one that is running is cancelled."""
+        return self._send(type(None), "DELETE", f"/api/sweeps/{number}")
+
+    @asked
+    def sweep_reaction(self, number: int, error: str, state: str) -> Steps[shapes.Reaction]:
+        """The whole result of one cell."""
+        return self._send(shapes.Reaction, "POST", f"/api/sweeps/{number}/reaction", {"error": error, "state": state})
+
+    @asked
+    def open_case(self, number: int, error: str, state: str, name: str) -> Steps[int]:
+        """A new PLC in this state with this error raised, paused: to look at what the sweep saw; its number."""
+        body = {"error": error, "state": state, "name": name}
+        return (yield from self._send(Instance, "POST", f"/api/sweeps/{number}/open", body))["id"]
+
+    @asked
+    def delete_state(self, number: int) -> Steps[None]:
+        """Deletes a state that was kept."""
+        return self._send(type(None), "DELETE", f"/api/states/{number}")
+
+    @asked
+    def accept_finding(self, number: int, error: str, state: str, reason: str) -> Steps[shapes.Accepted]:
+        """Accepts what a sweep found, for this and later sweeps of the project; the test record lists it with the reason."""
+        body = {"error": error, "state": state, "reason": reason}
+        return self._send(shapes.Accepted, "POST", f"/api/sweeps/{number}/accept", body)
+
+    @asked
+    def withdraw_finding(self, number: int, error: str, state: str) -> Steps[None]:
+        """Withdraws that a finding was accepted."""
+        return self._send(type(None), "POST", f"/api/sweeps/{number}/withdraw", {"error": error, "state": state})
+
+    @asked
+    def compare_sweeps(self, before: int, after: int) -> Steps[shapes.SweepComparison]:
+        """What became better or worse from one sweep to the next: of two versions of the program, or of two models."""
+        return self._get(shapes.SweepComparison, f"/api/sweeps/{before}/compare/{after}")
 
     def _sweep(self, number: int) -> Steps[shapes.Sweep]:
         return self._get(shapes.Sweep, f"/api/sweeps/{number}")

@@ -35,6 +35,11 @@ class Values(Asks):
         return self._get(list[shapes.ForceInfo], "forces")
 
     @asked
+    def symbols(self, path: str = "") -> Steps[list[shapes.Symbol]]:
+        """The members below a path; programs and globals below ''."""
+        return self._get(list[shapes.Symbol], "symbols", path=path)
+
+    @asked
     def binding(self, path: str) -> Steps[shapes.Binding]:
         """What an in-out (`Main.valve.level`) is bound to: what its block was given last, and what each call passes."""
         return self._get(shapes.Binding, "binding", path=path)

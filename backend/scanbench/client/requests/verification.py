@@ -42,8 +42,8 @@ class Verifications(Asks):
     @asked
     def upload_trace(self, data: bytes, name: str) -> Steps[shapes.UploadedTrace]:
         """Gives the server a controller's log (see docs/trace-format.md): its `columns`, a `mapping` that is proposed, `problems`."""
-        project = (yield from self._get(Instance, ""))["project"]["id"]
-        return (yield from self._send(shapes.UploadedTrace, "POST", f"/api/projects/{project}/traces", data, name=name))
+        path = yield from self._of_project("traces")
+        return (yield from self._send(shapes.UploadedTrace, "POST", path, data, name=name))
 
     @asked
     def connect_controller(
@@ -102,6 +102,19 @@ class Verifications(Asks):
         return self._drive_verification(number, {"action": "stop"})
 
     @asked
+    def resume_verification(self, number: int) -> Steps[shapes.VerificationInfo]:
+        """Goes on with one that was stopped."""
+        return self._drive_verification(number, {"action": "resume"})
+
+    @asked
+    def drive_verification(
+        self, number: int, *, pace: Pace | None = None, memory: Literal["recorded", "set"] | None = None,
+        auto: bool | None = None,
+    ) -> Steps[shapes.VerificationInfo]:  # fmt: skip
+        """Changes its pace, whether it goes on by itself (`auto`), or the data that the monitor runs on; what is None stays."""
+        return self._drive_verification(number, {"pace": pace, "memory": memory, "auto": auto})
+
+    @asked
     def go_on(self, number: int) -> Steps[shapes.VerificationInfo]:
         """Paces `scan` and `step`: verifies one scan or statement more."""
         return self._drive_verification(number, {"action": "go_on"})
@@ -114,6 +127,12 @@ class Verifications(Asks):
         (`control`) and A' (`monitor`), as bytes in hex; `columns` have their names and types."""
         path = f"/api/verifications/{number}/rows"
         return self._get(shapes.VerifyRows, path, first=first, count=count, differing=differing)
+
+    @asked
+    def verification_uses(self, number: int, scan: int, call: int = 1) -> Steps[list[shapes.VerifyUse]]:
+        """The variables that a row used, in the order of use: name, whether it was written, A and A', and where."""
+        path = f"/api/verifications/{number}/uses"
+        return self._get(list[shapes.VerifyUse], path, scan=scan, call=call)
 
     @asked
     def set_cells(self, number: int, cells: Sequence[shapes.SetCell]) -> Steps[shapes.VerificationInfo]:
@@ -131,10 +150,55 @@ class Verifications(Asks):
         """Keeps it in the project, as it is now."""
         return self._send(shapes.VerificationRecord, "POST", f"/api/verifications/{number}/keep", {"name": name})
 
+    @asked_value
+    def kept_verifications(self) -> Steps[list[shapes.VerificationRecord]]:
+        """The verifications that are kept in the project of this PLC, the newest first."""
+        path = yield from self._of_project("verification-records")
+        return (yield from self._get(list[shapes.VerificationRecord], path))
+
+    @asked
+    def kept_rows(
+        self, record: int, first: int = 0, count: int = 200, differing: bool = False
+    ) -> Steps[shapes.VerifyRows]:
+        """The rows of a kept verification, as `verification_rows` has them."""
+        path = f"/api/verification-records/{record}/rows"
+        return self._get(shapes.VerifyRows, path, first=first, count=count, differing=differing)
+
+    @asked
+    def export_kept(self, record: int, format: Literal["csv", "json", "html", "junit"] = "csv") -> Steps[bytes]:
+        """The rows of a kept verification, as a file."""
+        return self._fetch(f"/api/verification-records/{record}/export", format=format)
+
+    @asked
+    def delete_kept_verification(self, record: int) -> Steps[None]:
+        """Deletes a kept verification."""
+        return self._send(type(None), "DELETE", f"/api/verification-records/{record}")
+
+    @asked_value
+    def trace_mappings(self) -> Steps[list[shapes.SavedMapping]]:
+        """The mappings of controller logs that are saved in the project of this PLC."""
+        path = yield from self._of_project("trace-mappings")
+        return (yield from self._get(list[shapes.SavedMapping], path))
+
+    @asked
+    def save_trace_mapping(self, name: str, mapping: shapes.TraceMapping) -> Steps[shapes.SavedMapping]:
+        """Saves a mapping in the project; one of the same name is replaced."""
+        path = yield from self._of_project("trace-mappings")
+        return (yield from self._send(shapes.SavedMapping, "POST", path, {"name": name, "mapping": mapping}))
+
+    @asked
+    def delete_trace_mapping(self, number: int) -> Steps[None]:
+        """Deletes a mapping that was saved."""
+        return self._send(type(None), "DELETE", f"/api/trace-mappings/{number}")
+
     @asked
     def delete_verification(self, number: int) -> Steps[None]:
         """Ends it and deletes its rows."""
         return self._send(type(None), "DELETE", f"/api/verifications/{number}")
+
+    def _of_project(self, what: str) -> Steps[str]:
+        project = (yield from self._get(Instance, ""))["project"]["id"]
+        return f"/api/projects/{project}/{what}"
 
     def _verification(self, number: int) -> Steps[shapes.VerificationInfo]:
         return self._get(shapes.VerificationInfo, f"/api/verifications/{number}")

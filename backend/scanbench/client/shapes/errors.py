@@ -205,3 +205,47 @@ class FaultShape(TypedDict):
     seed: NotRequired[int | None]
     acknowledge: NotRequired[str]
     per_million: NotRequired[int]
+
+
+class PreviewedWrite(TypedDict):
+    """A bit or a word, with its values before and after."""
+
+    address: str
+    """In the vendor's notation."""
+    before: str
+    after: str
+    what: Literal["detail", "code", "flag", "log", "time", "outputs", "other"]
+    error: str
+    """Which error writes it; empty for the code word, the log, the time and what the PLC itself does."""
+
+
+class PreviewedErrors(TypedDict):
+    """What raising errors would do: what the plan says, or why it would be refused."""
+
+    ok: bool
+    message: str
+    scan: int
+    writes: list[PreviewedWrite]
+    """In the order of the memory."""
+    more: int
+    """Words that change besides, and are not named."""
+
+
+class HistoryVersion(TypedDict):
+    """A version of the program that has an error history on a PLC."""
+
+    version: int
+    running: bool
+    raised: int
+    """Errors that were raised on it."""
+    at: str | None
+    """When it was built; None: the project does not know it, as after a run that was imported."""
+    author: str
+
+
+class HistoryOfVersion(TypedDict):
+    """The error history of one version, in the order of the catalogue."""
+
+    version: int
+    running: bool
+    rows: list[ErrorHistoryRow]

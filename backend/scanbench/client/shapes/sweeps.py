@@ -267,3 +267,57 @@ class Sweep(TypedDict):
     """spent so far."""
     errors: list[SweepError]
     cells: list[SweepCell]
+
+
+class SweepChange(TypedDict):
+    """One cell in two sweeps; null where a sweep has none."""
+
+    error: str
+    name: str
+    state: str
+    before: (
+        Literal[
+            "acted",
+            "decided",
+            "displayed",
+            "stored",
+            "no_effect",
+            "not_reached",
+            "never_read",
+            "stopped",
+            "reacted",
+            "stored_only",
+        ]
+        | None
+    )
+    after: (
+        Literal[
+            "acted",
+            "decided",
+            "displayed",
+            "stored",
+            "no_effect",
+            "not_reached",
+            "never_read",
+            "stopped",
+            "reacted",
+            "stored_only",
+        ]
+        | None
+    )
+    scans_before: int | None
+    scans_after: int | None
+    change: Literal["same", "better", "worse", "fewer", "slower", "faster", "new", "gone"]
+    """worse: what is required, the grade, or an output differs no longer; fewer: only some other variable does not."""
+    lost: list[str]
+    """what differs no longer because of the error, outputs first."""
+    unmet: list[str]
+    """what was as required before, and is not any more."""
+
+
+class SweepComparison(TypedDict):
+    """SweepComparison."""
+
+    before: SweepSummary
+    after: SweepSummary
+    changes: list[SweepChange]

@@ -305,3 +305,25 @@ class VerificationRecord(TypedDict):
     at: str
     program_version: int
     info: VerificationInfo
+
+
+class VerifyUse(TypedDict):
+    """One use of a variable; see `verify.contract.Use`."""
+
+    name: str
+    written: bool
+    control: str | None
+    """As text."""
+    monitor: str | None
+    file: str
+    line: int
+    instance: str
+
+
+class SavedMapping(TypedDict):
+    """SavedMapping."""
+
+    id: int
+    name: str
+    by: str
+    mapping: TraceMapping
