@@ -187,7 +187,8 @@ class RefOf:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """A subrange check: the value, of `type` or a wider integer, brought to low..high; one outside is recorded at `site` (`Layout.violations`)."""
+    """A subrange check: the value, of `type` or a wider integer, brought to low..high; one outside is recorded at `site` (`Layout.violations`).
+    With `site` 0 it is known to be inside, and nothing is done."""
 
     type: Elementary
     value: "Expr"
@@ -307,6 +308,9 @@ class For:
     span: Span
     bounds: tuple[int, int] | None = None
     """Of a subrange variable: the value stored when the loop ends is brought between these, without a record."""
+    given: tuple[tuple[Place, int, int], ...] = ()
+    """Where all of these are between their bounds as the loop begins, `inside` does the same as `body`, with fewer checks."""
+    inside: tuple["Stmt", ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

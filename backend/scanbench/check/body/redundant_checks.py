@@ -7,8 +7,10 @@ may have changed the variable; where ways meet, what all of them know; a loop be
 
 from dataclasses import dataclass, replace
 
+from scanbench.check.body.harmless import harmless
 from scanbench.check.body.true_values import value_range
 from scanbench.check.context import Report
+from scanbench.program.bodies import every
 from scanbench.program.program import (
     Assign,
     Binary,
@@ -18,6 +20,7 @@ from scanbench.program.program import (
     Case,
     Compare,
     Const,
+    Continue,
     Convert,
     Evaluate,
     Expr,
@@ -41,6 +44,8 @@ from scanbench.program.program import (
 from scanbench.program.types import Elementary, Subrange
 
 Key = tuple[object, ...]
+LARGEST = 40
+"""Statements of a loop that is compiled in two versions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +68,12 @@ def without_needless(report: Report, body: tuple[Stmt, ...]) -> tuple[Stmt, ...]
 
 
 class _Needless:
-    def __init__(self, report: Report) -> None:
-        self.report = report
-        self.facts: Facts = {}
+    def __init__(self, report: Report, facts: Facts | None = None, tries: bool = False) -> None:
+        """`tries`: what is found is not told."""
+        self.report, self._tries = report, tries
+        self.facts: Facts = facts or {}
+        self.checked: dict[Key, Limit] = {}
+        """The first check of each variable that was read before anything was known of it."""
 
     # ---- statements -------------------------------------------------------------------------------------
 
@@ -151,7 +159,10 @@ class _Needless:
         if isinstance(node, For):
             start, end, step = self.expr(node.start), self.expr(node.end), self.expr(node.step)
             self.facts = {}
-            made: Stmt = replace(node, start=start, end=end, step=step, body=self.block(node.body))
+            given, inside = ((), ()) if self._tries else self.versions(node)
+            made: Stmt = replace(
+                node, start=start, end=end, step=step, body=self.block(node.body), given=given, inside=inside
+            )
         elif isinstance(node, While):
             self.facts = {}
             condition = self.expr(node.condition)
@@ -163,6 +174,29 @@ class _Needless:
             made = replace(node, body=body, until=self.expr(node.until))
         self.facts = {}
         return made
+
+    def versions(self, node: For) -> tuple[tuple[tuple[Place, int, int], ...], tuple[Stmt, ...]]:
+        """The variables that are between their bounds in every round if they are as the loop begins, and its body for that case: none
+        of the checks of them is needed there."""
+        nested = tuple(every(node.body))
+        if len(nested) > LARGEST or any(isinstance(each, Continue | For | While | Repeat) for each in nested):
+            return (), ()
+        if not all(harmless(each) for each in (node.start, node.end, node.step)):
+            return (), ()
+        first = _Needless(self.report, tries=True)
+        first.block(node.body)
+        tried = first.checked
+        while tried:
+            facts = {key: Fact(True, 0, each.low, each.high, _variable(each)) for key, each in tried.items()}
+            again = _Needless(self.report, facts, tries=True)
+            again.forget(node.variable)
+            began = set(again.facts)
+            inside = again.block(node.body)
+            kept = {key: each for key, each in tried.items() if key in began and _keeps(again.facts.get(key), each)}
+            if len(kept) == len(tried):
+                return tuple((_place(each), each.low, each.high) for each in tried.values()), inside
+            tried = kept
+        return (), ()
 
     # ---- expressions ------------------------------------------------------------------------------------
 
@@ -204,17 +238,19 @@ class _Needless:
         # of a plain variable that is assigned to two with a subrange, each has a violation of its own
         own = isinstance(value, Load) and isinstance(value.place.type, Subrange)
         key = _key(value.place) if own and isinstance(value, Load) else None
-        if key is None or not isinstance(value, Load):
+        if key is None or not isinstance(value, Load) or not node.site:
             return replace(node, value=value)
         fact = self.facts.get(key)
         if fact is None or not (node.low <= fact.low and fact.high <= node.high):
+            self.checked.setdefault(key, node)
             line = self.report.checks[node.site - 1].span.line
             self.facts[key] = Fact(False, line, node.low, node.high, value.place.variable)
             return replace(node, value=value)
         how = "assigned with a check" if fact.assigned else "checked already"
-        self.report.needless(node.site, f"{how} in line {fact.line}")
+        if not self._tries:
+            self.report.needless(node.site, f"{how} in line {fact.line}")
         if fact.assigned:
-            return value
+            return replace(node, value=value, site=0)
         low, high = Const(node.type, node.low), Const(node.type, node.high)
         return Intrinsic("MIN", node.type, (Intrinsic("MAX", node.type, (value, low)), high))
 
@@ -241,6 +277,19 @@ class _Needless:
             for key, fact in self.facts.items()
             if fact.variable and fact.variable != name and not (area and fact.variable.startswith("@"))
         }
+
+
+def _place(check: Limit) -> Place:
+    assert isinstance(check.value, Load)
+    return replace(check.value.place, type=check.type)
+
+
+def _variable(check: Limit) -> str:
+    return _place(check).variable
+
+
+def _keeps(fact: Fact | None, check: Limit) -> bool:
+    return fact is not None and fact.assigned and check.low <= fact.low and fact.high <= check.high
 
 
 def _key(place: Place) -> Key | None:

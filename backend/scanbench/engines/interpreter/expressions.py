@@ -163,6 +163,8 @@ class Expressions(ABC):
     # ---- subrange checks --------------------------------------------------------------------------------------
 
     def _limit(self, node: Limit) -> Read:
+        if node.site == 0:
+            return self.evaluate(node.value)
         value, low, high, record = self._number(node.value), node.low, node.high, self._recorder(node)
 
         def limit(instance: int) -> Value:

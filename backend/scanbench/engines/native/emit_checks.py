@@ -4,7 +4,7 @@ from scanbench.engines.native import emit_deferred
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_operators import convert, intrinsic
-from scanbench.engines.native.emit_places import address, reference
+from scanbench.engines.native.emit_places import address, load, reference
 from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
 from scanbench.program.copies import BYTE_OFFSET, DEEPEST
@@ -154,7 +154,7 @@ def _limited(body: Body, expr: Limit, type: Elementary) -> Value:
     """The same in the type of the value, which may be wider."""
     name = value_type(type)
     value = body.scalar(expr.value)
-    if within(value.range, (expr.low, expr.high)):
+    if expr.site == 0 or within(value.range, (expr.low, expr.high)):
         return value
     text, bounds = body.text, (expr.low, expr.high)
     if body.farthest is not None:
@@ -210,6 +210,12 @@ def _outside(body: Body, value: Value, type: Elementary, bounds: tuple[int, int]
     """One comparison: below the lower bound the distance wraps, and is large."""
     low, high = bounds
     return body.text.op(f"icmp ugt {value_type(type)} {_distance(body, value, type, low)}, {integer(high - low, type)}")
+
+
+def is_outside(body: Body, place: Place, low: int, high: int) -> str:
+    """Whether a variable is outside of these bounds; nothing is recorded."""
+    type = elementary(place.type)
+    return _outside(body, load(body, place), type, (low, high))
 
 
 def _distance(body: Body, value: Value, type: Elementary, low: int) -> str:

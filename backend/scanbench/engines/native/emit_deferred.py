@@ -54,7 +54,7 @@ def deferrable(body: Body, loop: For) -> bool:
     if not all(_simple(each) for each in (*parts, *targets)):
         return False
     written = {each.variable for each in (*targets, loop.variable)}
-    checks = [each for each in parts if isinstance(each, Limit)]
+    checks = [each for each in parts if isinstance(each, Limit) and each.site]
     counts = keeps(frozenset(each.variable for each in targets), loop.variable)
     return bool(checks) and counts and all(_stays(each, loop, written) for each in checks)
 
@@ -77,7 +77,11 @@ def repeatable(loop: For) -> bool:
 
 def _counts(check: Limit, loop: For) -> bool:
     """Whether the check looks at the counter, which keeps within its subrange."""
-    return isinstance(check.value, Load) and counter_key(check.value.place) == counter_key(loop.variable)
+    return (
+        check.site != 0
+        and isinstance(check.value, Load)
+        and counter_key(check.value.place) == counter_key(loop.variable)
+    )
 
 
 def rounds(body: Body, emit: Callable[[], str], again: Callable[[], str], optimistic: bool) -> str | None:

@@ -96,9 +96,11 @@ class _Checked:
             case Intrinsic(name, _, args):
                 plain = not any(isinstance(each.type, StringType) for each in args)
                 return name in CHEAP and plain and all(self.allows(arg) for arg in args)
-            case Limit(_, value, low, high, _):
+            case Limit(_, value, site=0):
+                return self.allows(value)
+            case Limit(_, value, low, high):
                 return within(range_of(self.body, value), (low, high)) and self.allows(value)
-            case Violates(_, value, _, _, site):
+            case Violates(_, value, site=site):
                 return site == 0 and self.allows(value)
             case CallFunction() | RefOf() | Sequence():
                 return False
@@ -124,7 +126,9 @@ def range_of(body: Body, expr: Expr) -> Range:
         case Convert(type, operand) if isinstance(operand.type, Elementary) and not is_real(operand.type):
             inner = range_of(body, operand)
             return inner if isinstance(type, Elementary) and within(inner, bounds(type)) else _bounds(expr)
-        case Limit(_, value, low, high, _):
+        case Limit(_, value, site=0):
+            return range_of(body, value)
+        case Limit(_, value, low, high):
             inner = range_of(body, value)
             return min(max(inner[0], low), high), min(max(inner[1], low), high)
     return _bounds(expr)
