@@ -183,7 +183,7 @@ test('set data shows whether the input or the logic caused a wrong result', { ta
     await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(a);
     await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
     await expect(verify.cell(scan, 'from')).toHaveText('Set');
-    await expect(verify.facts).toContainText('the input data explains the difference');
+    await expect(verify.facts).toContainText('With the edited inputs the reference gives the result of A.');
   });
 
   await test.step('on the recorded inputs the result is the old one', async () => {

@@ -29,7 +29,7 @@ def whatif(
     vary: str = typer.Option("", metavar="PATH=VALUE,VALUE,...", help="Try each of these values, or A..B or A..B/STEP of whole numbers."),
     change: list[str] = typer.Option([], metavar="PATH", help="Look for the smallest change of these with which --condition holds; may be given several times."),
     condition: str = typer.Option("", metavar="CONDITION", help="What is to be after one of the scans, as 'Main.valve = 3'."),
-    scans: int = typer.Option(100, metavar="N", help="It goes on for so many scans after that one."),
+    scans: int = typer.Option(100, metavar="N", help="Run so many scans, that one the first of them."),
     once: bool = typer.Option(False, help="Write the values once; else they are forced all the time."),
     watch: list[str] = typer.Option([], "--print", metavar="PATH", help="Tell the value of this at the end; may be given several times."),
     test: Path | None = typer.Option(None, metavar="FILE", help="Write a scenario file that does the same and expects the condition."),
@@ -86,20 +86,23 @@ def _value(text: str) -> SetValue:
 
 
 def _lines(found: WhatIf) -> list[str]:
-    lines = [f"as recorded: {_outcome(found, found.recorded)}"]
+    lines = [f"as recorded: {_outcome(found, found.recorded, False)}"]
+    if found.undisturbed is not None:
+        lines.append(f"without the disturbances: {_outcome(found, found.undisturbed)}")
     for at, each in enumerate(found.tries):
         values = ", ".join(f"{one.path} = {one.value}" for one in each.values)
         lines.append(f"{'* ' if at == found.best else ''}{values}: {_outcome(found, each)}")
     return [*lines, *filter(None, [found.note])]
 
 
-def _outcome(found: WhatIf, tried: Try) -> str:
+def _outcome(found: WhatIf, tried: Try, beside: bool = True) -> str:
+    """`beside` the recorded run."""
     if tried.refused and not tried.ran:
         return f"not tried: {'; '.join(tried.refused)}"
     said = []
     if found.wanted.condition:
         said.append("not met" if tried.met is None else f"met after scan {tried.met}")
-    if tried.values:
+    if beside:
         differs = tried.output_scan
         if differs is not None:
             said.append(f"an output differs from scan {differs} on")

@@ -7,6 +7,8 @@ from hashlib import blake2b
 from pathlib import Path
 
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.disturb import DISTURBED, Calm
+from scanbench.history.entered import begun_with
 from scanbench.history.places import places
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
@@ -37,10 +39,13 @@ class Bench:
         """The run file that was gone on with last."""
         return self.folder / "try.run"
 
-    def begin(self, reader: RunReader, scan: int, by: str) -> None:
-        """All that follows goes on from before this scan, after what was entered there. `Unreadable`."""
+    def begin(self, reader: RunReader, scan: int, by: str, disturbed: bool = False) -> None:
+        """All that follows goes on from before this scan, as `begun_with` says. What disturbances still do there is taken back, unless
+        it is to be `disturbed`. `Unreadable`."""
         self._stump.unlink(missing_ok=True)
-        write_stump(reader, self._stump, scan, by, self.codec)
+        count = begun_with(reader, scan)
+        calm = (Calm(by, None),) if not disturbed and DISTURBED.over(reader.entries[:count]) else ()
+        write_stump(reader, self._stump, scan, by, self.codec, count, calm)
 
     def gone_on(self) -> Timeline:
         """The run from there on, once more; whoever takes it closes it. `Unreadable`."""

@@ -7,17 +7,34 @@ from scanbench.history.renumbered import Numbers, refused
 from scanbench.history.rerun_plan import Given, comes_by_itself, number_of
 from scanbench.recording.reader import RunReader
 from scanbench.recording.timeline import Timeline
-from scanbench.runtime.command import Refusal
+from scanbench.runtime.command import Entry, Refusal
 
 
-def given_after(reader: RunReader, scan: int) -> list[Given]:
-    """What people and clients entered after this scan; what the PLC enters by itself comes again by itself, and disturbances are left
-    out."""
+def begun_with(reader: RunReader, scan: int) -> int:
+    """How many entries there are before one goes on from this scan in some other way: those of its seam, up to the first disturbance.
+    What was entered inside of the scan is none of them."""
+    count = reader.front(scan)
+    for entry in reader.entries[count:]:
+        if entry.scan > scan or entry.step or is_disturbance(entry.command):
+            break
+        count += 1
+    return count
+
+
+def given_after(reader: RunReader, scan: int, disturbed: bool) -> list[Given]:
+    """What people and clients entered after `begun_with`; what the PLC enters by itself comes again by itself. `disturbed`: the
+    disturbances, too."""
     return [
-        Given(each.scan, each.command, number_of(each))
-        for each in reader.entries
-        if each.scan > scan and not comes_by_itself(each.command) and not is_disturbance(each.command)
+        Given(_again_at(each), each.command, number_of(each), bool(each.step) and not is_disturbance(each.command))
+        for each in reader.entries[begun_with(reader, scan) :]
+        if not comes_by_itself(each.command) and (disturbed or not is_disturbance(each.command))
     ]
+
+
+def _again_at(entry: Entry) -> int:
+    """Before which scan. What is entered inside of a scan is entered before it this time; a disturbance after it, as it does nothing in a
+    scan that has begun."""
+    return entry.scan + (1 if entry.step and is_disturbance(entry.command) else 0)
 
 
 class Entering:

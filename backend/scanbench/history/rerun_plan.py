@@ -26,6 +26,8 @@ class Given:
     command: Command
     number: int | None = None
     """What it was given in the original: of an armed fault or a disturbance."""
+    inside: bool = False
+    """It was entered inside of that scan, and is entered before it this time."""
 
 
 @dataclass(frozen=True, slots=True)

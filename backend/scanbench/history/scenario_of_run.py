@@ -22,7 +22,8 @@ _EXPECTED = 50
 def scenario_of(
     reader: RunReader, scan: int, expect: Sequence[str] | None = None, project: str = "."
 ) -> Scenario:  # fmt: skip
-    """What people did up to a scan. What these variables are there is expected again, else what the outputs are. `Unreadable`."""
+    """What people did up to a scan. What these variables are there is expected again, none if there are
+    none; without `expect` what the outputs are. `Unreadable`."""
     if reader.first:
         raise Unreadable(f"the run begins with scan {reader.first}, and a scenario with a cold start: begin a new run")
     if scan > reader.end:
@@ -40,7 +41,7 @@ def scenario_of(
     told = [(each.path, worth_text(plc.program, plc.memory, each)) for each in wanted]
     entries = [each for each in reader.entries if each.scan < scan]
     made = from_run(entries, scan, plc.program.layout.model, told, project)
-    return made if made.expect else replace(made, notes=(*made.notes, NOTHING))
+    return made if made.expect or expect == [] else replace(made, notes=(*made.notes, NOTHING))
 
 
 def _outputs(program: Program) -> list[Symbol]:

@@ -20,6 +20,8 @@ class NewWhatIf(Wire):
     )
     candidates: list[str] = Field(default=[], max_length=MOST_SET)
     hold: bool = Field(default=True, description="forced all the time; else written once")
-    window: int = Field(default=100, ge=0, le=MOST_WINDOW, description="goes on for so many scans after `scan`")
+    window: int = Field(
+        default=100, ge=1, le=MOST_WINDOW, description="so many scans are run, `scan` the first of them"
+    )
     condition: str = Field(default="", max_length=_PATH, description="what is to be, in ST: `Main.valve = 3`")
     watch: list[str] = Field(default=[], max_length=MOST_SET, description="variables whose values at the end are told")

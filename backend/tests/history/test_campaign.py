@@ -10,6 +10,8 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.agenda import agenda_of_faults
 from scanbench.faults.arm import Arm, Disarm
+from scanbench.faults.disturb.definition import FOR_EVER, Disturbance
+from scanbench.faults.disturb.disturb import Disturb
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Wanted
@@ -197,3 +199,35 @@ def assert_found(trials: Trials, found: Trial) -> None:
         rows = verifier.verify(found.program_scan).rows
     told = [row.note for row in rows] + [each.message for row in rows for each in row.differences]
     assert any("run-time error" in text and f"main.st:{place}" in text for text in told), (found, told)
+
+
+ADD = f"main.st:{LINES['level := level + 1;']}"
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        ((20, Disturbance("flip", "Main.spare", 3)),),
+        ((20, Disturbance("stuck", "start", scans=FOR_EVER)),),
+        ((20, Disturbance("flip", "Main.spare", probability=0.5)),),
+        ((20, Disturbance("result", site=ADD, bit=3, scan=50)),),
+        ((50, Disturbance("flip", "Main.spare", 3)), (60, Disturbance("flip", "Main.spare", 4))),
+    ],
+)
+def test_disturbances_of_the_run_itself_are_left_out(
+    before: tuple[tuple[int, Disturbance], ...], tmp_path: Path
+) -> None:
+    """Long over, under way, in the first scan of the stretch, and in the middle of it."""
+    path = record(
+        tmp_path / "base.run", program(SOURCE), 120, [(scan, Disturb("Ada", each)) for scan, each in before],
+        engine=NativeEngine, agenda=agenda_of_faults(ObservedBuilds().engine),
+    )  # fmt: skip
+    wanted = CampaignWanted(seed=3, count=5, first=50, last=52, window=10, kinds=("flip",))
+    with RunReader(path, programs_of(lambda kept: program(SOURCE), MAKE), ENTRIES) as reader:
+        reader.follow()
+        found = run_campaign(reader, wanted, bench(tmp_path, program(SOURCE))).trials
+    (tmp_path / "base.run").unlink()
+    undisturbed = harmless(tmp_path, wanted)
+    assert [each.outcome for each in found] == [each.outcome for each in undisturbed]
+    assert [each.verified_scan for each in found] == [each.verified_scan for each in undisturbed]
+    assert any(each.verified_scan == each.scan for each in found)

@@ -220,7 +220,7 @@ def test_a_file_that_begins_later_knows_when_what_it_kept_of_before_is_lost(tmp_
     path.write_bytes(whole().data)
     with RunReader(path, of_file, ENTRIES) as reader:
         reader.follow()
-        write_stump(reader, tmp_path / "stump", 100, "Bob", ENTRIES)
+        write_stump(reader, tmp_path / "stump", 100, "Bob", ENTRIES, reader.front(101))
     stump = RunFile.open(tmp_path / "stump", read_only=True)
     roots = [block for block in stump.scan_blocks() if block.kind is Kind.ENTRY]
     stump.close()

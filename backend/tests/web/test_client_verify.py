@@ -184,14 +184,14 @@ def test_scans_that_are_over_are_recorded(plc: Plc) -> None:
 
 def test_what_would_have_come_of_other_values(plc: Plc) -> None:
     found = plc.what_if(
-        5, vary="Main.level", tried=[1, "60..61"], condition="Main.level > 60", window=0, watch=["Main.level"]
+        5, vary="Main.level", tried=[1, "60..61"], condition="Main.level > 60", window=1, watch=["Main.level"]
     )
     assert [(each["values"][0]["value"], each["met"]) for each in found["tries"]] == [
         ("1", None),
         ("60", None),
         ("61", 5),
     ]
-    found = plc.what_if(5, change=["Main.level"], condition="Main.level = 77", window=0)
+    found = plc.what_if(5, change=["Main.level"], condition="Main.level = 77", window=1)
     assert found["best"] is None
     assert "no change" in found["note"]
     with pytest.raises(Refused, match="which variable"):

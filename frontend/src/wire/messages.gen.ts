@@ -7149,7 +7149,7 @@ export interface components {
             watch: string[];
             /**
              * Window
-             * @description goes on for so many scans after `scan`
+             * @description so many scans are run, `scan` the first of them
              * @default 100
              */
             window: number;
@@ -10708,7 +10708,7 @@ export interface components {
             best: number | null;
             /**
              * Note
-             * @description What the search did not look at.
+             * @description What the search did not look at, and why a row may differ from the recorded run.
              */
             note: string;
             recorded: components["schemas"]["WhatIfTry"];
@@ -10719,6 +10719,8 @@ export interface components {
             scenario: string;
             /** Tries */
             tries: components["schemas"]["WhatIfTry"][];
+            /** @description Where a disturbance came in the recorded run: without it, as all tries are, and with no other value. */
+            undisturbed: components["schemas"]["WhatIfTry"] | null;
             wanted: components["schemas"]["WhatIfWanted"];
         };
         /**
@@ -10818,7 +10820,7 @@ export interface components {
             watch: string[];
             /**
              * Window
-             * @description It goes on for so many scans after `scan`.
+             * @description So many scans are run, `scan` the first of them.
              */
             window: number;
         };

@@ -176,7 +176,7 @@ class WhatIfWanted(TypedDict):
     hold: bool
     """The values are forced all the time; else they are written once."""
     window: int
-    """It goes on for so many scans after `scan`."""
+    """So many scans are run, `scan` the first of them."""
     condition: str
     """What is to be, in ST: `Main.valve = 3`. It is met where it holds after one of the scans."""
     watch: list[str]
@@ -213,9 +213,11 @@ class WhatIf(TypedDict):
     best: int | None
     """Of a search: the index of the smallest change that was found."""
     note: str
-    """What the search did not look at."""
+    """What the search did not look at, and why a row may differ from the recorded run."""
     scenario: str
     """A scenario file that does the same from a cold start and expects the condition; empty where there can be none."""
+    undisturbed: WhatIfTry | None
+    """Where a disturbance came in the recorded run: without it, as all tries are, and with no other value."""
 
 
 class Violation(TypedDict):

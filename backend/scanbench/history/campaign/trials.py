@@ -9,6 +9,7 @@ from pathlib import Path
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.faults.disturb.definition import Disturbance, describe
 from scanbench.faults.disturb.disturb import DISTURBED, Disturb, told
+from scanbench.faults.disturb.fire import Firing
 from scanbench.faults.inject import Generate
 from scanbench.history.bench import Bench, outputs_of
 from scanbench.history.campaign.contract import (
@@ -24,6 +25,7 @@ from scanbench.history.campaign.contract import (
 from scanbench.history.campaign.plan import planned
 from scanbench.history.entered import Entering, given_after
 from scanbench.history.places import places
+from scanbench.history.rerun_plan import number_of
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.recording.gaps import gap_between
@@ -61,6 +63,8 @@ class _Seen:
     held: dict[int, int] = field(default_factory=dict)
     """Offset -> the bits of inputs that a disturbance still holds at the end."""
     trap: tuple[int, str] | None = None
+    number: int = 0
+    """What the disturbance was given."""
     end: int = 0
     """Scans before this one are over."""
 
@@ -89,7 +93,7 @@ class Trials:
         _check(reader, wanted)
         self._wanted, self._bench = wanted, bench
         bench.begin(reader, wanted.first, AUTHOR)
-        self._given = given_after(reader, wanted.first)
+        self._given = given_after(reader, wanted.first, disturbed=False)
         with reader.reading():
             self.program = reader.programs.get(reader.version(wanted.first)).program
         self.disturbances = planned(self.program, wanted)
@@ -105,7 +109,7 @@ class Trials:
         end = min(wanted.scan + self._wanted.window + 1, self._right.end)
         seen = self._run(wanted, end)
         trial = Trial(number, describe(wanted), wanted.kind, wanted.scan, "missed")
-        fired, why = self._fired(wanted)
+        fired, why = self._fired(wanted, seen.number)
         if not fired:
             return replace(trial, why=why)
         difference, at = self._verified(fired)
@@ -133,22 +137,23 @@ class Trials:
         timeline = self._bench.gone_on()
         seen = _Seen()
         begin = timeline.live_scan if wanted is None or wanted.scan is None else wanted.scan
-        known = len(timeline.live_journal)
+        known, entering = len(timeline.live_journal), Entering(self._given)
         try:
+            entering.enter(timeline)
             if wanted is not None:
                 outcome = timeline.submit(Disturb(AUTHOR, wanted))
                 if isinstance(outcome, Refusal):
                     raise BadCampaign(f"{describe(wanted)}: {outcome.message}")
-            self._through(timeline, seen, begin, end)
+                seen.number = number_of(outcome) or 0
+            self._through(timeline, seen, entering, begin, end)
             seen.end = timeline.live_scan
             self._take(timeline, seen, known)
         finally:
             timeline.close()
         return seen
 
-    def _through(self, timeline: Timeline, seen: _Seen, begin: int, end: int) -> None:
+    def _through(self, timeline: Timeline, seen: _Seen, entering: Entering, begin: int, end: int) -> None:
         """Scan by scan from `begin` on; before that as fast as it goes."""
-        entering = Entering(self._given)
         resource = timeline.resource
         while (now := timeline.live_scan) < end and not resource.header.halted_by_trap:
             entering.enter(timeline)
@@ -226,16 +231,17 @@ class Trials:
         held = self._right.alarms.get(scan)
         return held is not None and held[index]
 
-    def _fired(self, wanted: Disturbance) -> tuple[list[int], str]:
+    def _fired(self, wanted: Disturbance, number: int) -> tuple[list[int], str]:
         """The scans in which it changed or held anything; else why it did not come about."""
         with self._reader() as reader:
             reader.follow()
             journal = reader.entries
-            scans = {each.scan for each in journal if told(each)}
+            mine = (each for each in journal if isinstance(each.command, Firing) and each.command.id == number)
+            scans = {each.scan for each in mine if told(each)}
             if wanted.kind in ("stuck", "late") and wanted.scan is not None and scans:
                 scans |= set(range(wanted.scan, min(wanted.scan + (wanted.lasts or 1), reader.end)))
-            missed = DISTURBED.over(journal)
-            why = next((each.missed for each in missed.values() if each.missed), "the run ended before")
+            left = DISTURBED.over(journal).get(str(number))
+            why = left.missed if left is not None and left.missed else "the run ended before"
         return sorted(scans), why
 
     def _verified(self, scans: Sequence[int]) -> tuple[Mismatch | None, int | None]:

@@ -1,13 +1,13 @@
 """Goes on with a recorded run from a scan, with some inputs set to other values; again and again."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
-from scanbench.faults.disturb.disturb import is_disturbance
+from scanbench.faults.disturb.disturb import DISTURBED, told
 from scanbench.history.bench import Bench, outputs_of
-from scanbench.history.entered import Entering, given_after
+from scanbench.history.entered import Entering, begun_with, given_after
 from scanbench.history.scenario import Expectation, Step, write_scenario
 from scanbench.history.scenario_of_run import scenario_of
 from scanbench.history.whatif.contract import (
@@ -50,9 +50,8 @@ class _Tries:
         wanted = replace(wanted, tried=spread(wanted.tried))
         _check(reader, wanted)
         self._reader, self._wanted, self._bench, self._on_try = reader, wanted, bench, on_try
-        self._end = wanted.scan + wanted.window + 1
-        bench.begin(reader, wanted.scan, AUTHOR)
-        self._given = [each for each in given_after(reader, wanted.scan) if each.scan < self._end]
+        self._end = wanted.scan + wanted.window
+        self._begin(disturbed=True)
         with reader.reading():
             self._program = reader.programs.get(reader.version(wanted.scan)).program
         self._condition = None if not wanted.condition else _condition(self._program, wanted.condition)
@@ -62,7 +61,26 @@ class _Tries:
         self._outputs: dict[int, bytes] = {}
         """After each scan of the recorded run a digest."""
         self._recorded = self._run((), self._outputs)
+        self._undisturbed: Try | None = None
+        self._disturbed = self._first_disturbed()
+        if self._disturbed is not None:
+            self._begin(disturbed=False)
+            self._undisturbed = self._run((), {})
         self._tries: list[Try] = []
+
+    def _begin(self, disturbed: bool) -> None:
+        """All that is run from now on has the disturbances of the recorded run, or has none."""
+        reader, scan = self._reader, self._wanted.scan
+        self._bench.begin(reader, scan, AUTHOR, disturbed)
+        self._given = [each for each in given_after(reader, scan, disturbed) if each.scan < self._end]
+
+    def _first_disturbed(self) -> int | None:
+        """The first of the scans to which a disturbance of the recorded run does anything, if there is one."""
+        entries, scan = self._reader.entries, self._wanted.scan
+        count = begun_with(self._reader, scan)
+        if any(each.active for each in DISTURBED.over(entries[:count]).values()):
+            return scan
+        return next((each.scan for each in entries[count:] if each.scan < self._end and told(each)), None)
 
     def all(self) -> WhatIf:
         """What came of it."""
@@ -83,23 +101,25 @@ class _Tries:
             else next((each for each in self._tries if each.met is not None), None)
         )
         text, why = self._scenario(kept) if kept is not None else ("", "")
-        notes = "; ".join(filter(None, (note, why, self._left_out())))
-        return WhatIf(wanted, self._recorded, tuple(self._tries), best, notes, text)
+        notes = "; ".join(filter(None, (note, why, *self._notes())))
+        return WhatIf(wanted, self._recorded, tuple(self._tries), best, notes, text, self._undisturbed)
 
-    def _left_out(self) -> str:
-        """Disturbances came in the recorded run, and not in the tries."""
-        scans = [
-            each.scan
-            for each in self._reader.entries
-            if self._wanted.scan < each.scan < self._end and is_disturbance(each.command)
-        ]
-        return f"disturbances of scan {scans[0]} and later are left out, in the first row, too" if scans else ""
+    def _notes(self) -> Iterator[str]:
+        """Why a try, or even the first row, may differ from the recorded run."""
+        if self._disturbed is not None:
+            yield f"the tries are without the disturbances, which come from scan {self._disturbed} on"
+        inside = next((each for each in self._given if each.inside), None)
+        if inside is not None:
+            name, author = type(inside.command).__name__, inside.command.author
+            yield f"{name} by {author} was entered inside of scan {inside.scan}, and is entered before it here"
+        if self._end > self._reader.over:
+            yield f"the run has scans up to {self._reader.over - 1}: from there on the first row goes on like the tries"
 
     # ---- a search -------------------------------------------------------------------------------------------------
 
     def _search(self) -> tuple[int | None, str]:
         """The index of the smallest change, and what was not looked at."""
-        before = self._tries[0] if self._tries else self._recorded
+        before = self._tries[0] if self._tries else self._undisturbed or self._recorded
         if before.met is not None:
             return None, f"`{self._wanted.condition}` holds after scan {before.met} without any change"
         left: list[str] = []
@@ -112,7 +132,7 @@ class _Tries:
                 left.append(path)
             else:
                 candidates.append(Candidate(symbol.path, symbol.type, data))
-        most = min(MOST_TRIES, max(1, MOST_SCANS // (self._wanted.window + 1)))
+        most = min(MOST_TRIES, max(1, MOST_SCANS // self._wanted.window))
         search = Search(candidates, lambda change: self._try(change, of=most).met is not None, most)
         found, whole = search.run()
         notes = [f"{', '.join(left)}: no values are tried of such a type"] if left else []
@@ -140,10 +160,17 @@ class _Tries:
     def _run(self, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
         timeline = self._bench.gone_on()
         try:
+            if timeline.resource.header.halted_by_trap:
+                raise BadWhatIf(
+                    f"a run-time error has stopped the program in scan {timeline.live_scan}: begin with an earlier scan, "
+                    f"{max(timeline.live_scan - 1, 0)} at the latest"
+                )
+            entering = Entering(self._given)
+            entering.enter(timeline)
             refused = self._set(timeline, values)
             if refused:
                 return Try(values, refused=refused)
-            return self._through(timeline, values, outputs)
+            return self._through(timeline, entering, values, outputs)
         finally:
             timeline.close()
 
@@ -156,13 +183,10 @@ class _Tries:
                 refused.append(f"{each.path} := {each.value}: {outcome.message}")
         return tuple(refused)
 
-    def _through(self, timeline: Timeline, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
-        entering, resource = Entering(self._given), timeline.resource
-        if resource.header.halted_by_trap:
-            raise BadWhatIf(
-                f"a run-time error has stopped the program in scan {timeline.live_scan}: begin with an earlier scan, "
-                f"{max(timeline.live_scan - 1, 0)} at the latest"
-            )
+    def _through(
+        self, timeline: Timeline, entering: Entering, values: tuple[SetValue, ...], outputs: dict[int, bytes]
+    ) -> Try:
+        resource = timeline.resource
         met: int | None = None
         differs: int | None = None
         compared = 0
@@ -242,13 +266,13 @@ def _check(reader: RunReader, wanted: WhatIfWanted) -> None:
     """`BadWhatIf` where it makes no sense."""
     if not reader.first <= wanted.scan < max(reader.over, reader.first + 1):
         raise BadWhatIf(f"scan {wanted.scan} is not in the run: it has scans {reader.first} to {reader.over - 1}")
-    if not 0 <= wanted.window <= MOST_WINDOW:
-        raise BadWhatIf(f"{wanted.window} scans cannot be gone on: 0 to {MOST_WINDOW} can")
+    if not 1 <= wanted.window <= MOST_WINDOW:
+        raise BadWhatIf(f"{wanted.window} scans cannot be gone on: 1 to {MOST_WINDOW} can")
     if max(len(wanted.values), len(wanted.candidates), len(wanted.watch)) > MOST_SET:
         raise BadWhatIf(f"at most {MOST_SET} variables can be set, searched among or watched")
     if len(wanted.tried) > MOST_TRIES:
         raise BadWhatIf(f"{len(wanted.tried)} values are too many: at most {MOST_TRIES}")
-    if len(wanted.tried) * (wanted.window + 1) > MOST_SCANS:
+    if len(wanted.tried) * wanted.window > MOST_SCANS:
         raise BadWhatIf(
             f"{len(wanted.tried)} values with {wanted.window} scans each are too much: try fewer values, or fewer scans"
         )
@@ -263,7 +287,7 @@ def _check(reader: RunReader, wanted: WhatIfWanted) -> None:
     twice = {each.path.upper() for each in wanted.values} & {each.upper() for each in wanted.candidates}
     if twice:
         raise BadWhatIf(f"{min(twice)} cannot have a fixed value and be searched among")
-    gap = gap_between(reader.recording.gaps, wanted.scan, wanted.scan + wanted.window + 1)
+    gap = gap_between(reader.recording.gaps, wanted.scan, wanted.scan + wanted.window)
     if gap is not None:
         raise BadWhatIf(f"scan {wanted.scan} and what follows cannot be run again: {gap}")
     trapped = next(
@@ -272,15 +296,17 @@ def _check(reader: RunReader, wanted: WhatIfWanted) -> None:
     for each in reader.entries:
         if (
             trapped is not None
-            and trapped <= each.scan <= wanted.scan + wanted.window
+            and trapped <= each.scan < wanted.scan + wanted.window
             and isinstance(each.command, Restart)
         ):
             raise BadWhatIf(
                 f"a run-time error stopped the program in scan {trapped}, and it was restarted there: go on for at most "
-                f"{max(trapped - wanted.scan - 1, 0)} scans"
+                f"{trapped - wanted.scan} scans"
+                if trapped > wanted.scan
+                else f"a run-time error stopped the program in scan {trapped}, and it was restarted there: begin with scan {trapped + 1}"
             )
-        if wanted.scan < each.scan <= wanted.scan + wanted.window and isinstance(each.plan.effect, Swapped):
+        if wanted.scan < each.scan < wanted.scan + wanted.window and isinstance(each.plan.effect, Swapped):
             raise BadWhatIf(
-                f"the program was changed before scan {each.scan}: go on for at most {each.scan - wanted.scan - 1} scans, "
+                f"the program was changed before scan {each.scan}: go on for at most {each.scan - wanted.scan} scans, "
                 f"or begin with scan {each.scan}"
             )

@@ -35,16 +35,16 @@ export function showWhatIf(scan: number): void {
   openPage("whatif");
 }
 
-/** Opens the page for a row of a verification: which change of its inputs makes the result what it should be? */
+/** Opens the page for a row of a verification: which change of its inputs leads to its result? */
 export async function askWhatIf(row: VerifyRow, difference: VerifyDifference | null): Promise<void> {
   const inside = row.instance === "" ? [] : await loadMembers(row.instance);
   const columns = useVerifyRows.getState().columns;
   const pathOf = (column: string) => memberOf(row.instance, inside, column.replace(/ \(global\)$/, ""));
   // The results of a function, the current result of IL and parts of a value are no paths of a variable that can be set.
+  const isKnown = row.instance.includes(".") || row.instance === "" || inside.length > 0;
   const pathsOf = (names: readonly string[]) =>
-    row.instance.includes(".") || row.instance === "" || inside.length > 0
-      ? names.filter((name) => variableOf(null, `input:${name}`) !== null).map(pathOf)
-      : [];
+    isKnown ? names.filter((name) => variableOf(null, `input:${name}`) !== null).map(pathOf) : [];
+  const result = isKnown && difference?.control ? variableOf(difference, null) : null;
   const edited = Object.entries(row.inputs).flatMap(([name, { set }]) => {
     const column = columns.find((each) => each.name === name);
     return set === null || !column ? [] : [`${pathOf(name)} = ${shownValue(column, set).text}`];
@@ -56,16 +56,13 @@ export async function askWhatIf(row: VerifyRow, difference: VerifyDifference | n
     values: edited.join("; "),
     candidates: pathsOf(Object.keys(row.inputs)).join("; "),
     watch: pathsOf(Object.keys(row.outputs)).slice(0, WATCHED).join("; "),
-    condition: difference === null ? "" : conditionOf(difference),
+    // The result of the control device: a change of inputs that leads to it would explain it.
+    condition: difference && result ? `${pathOf(result)} = ${textOf(difference)}` : "",
   });
   openPage("whatif");
 }
 
-/** The result of the control device: a change of inputs that leads to it would explain it. */
-const conditionOf = (difference: VerifyDifference) =>
-  variableOf(difference, null) === null || difference.control === ""
-    ? ""
-    : `${difference.name} = ${shownValue({ ...difference, values: [] }, difference.control).text}`;
+const textOf = (difference: VerifyDifference) => shownValue({ ...difference, values: [] }, difference.control).text;
 
 const WATCHED = 5;
 let asking: AbortController | null = null;

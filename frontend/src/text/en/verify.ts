@@ -202,8 +202,7 @@ export const verify = {
   "verify.says.set": "edited inputs",
   "verify.scan": "scan {scan}",
   "verify.set.about": "A copy of the inputs that you can edit, cell by cell; only A′ changes",
-  "verify.set.explains":
-    "With the edited inputs the reference has the result of A: the input data explains the difference.",
+  "verify.set.explains": "With the edited inputs the reference gives the result of A.",
   "verify.set.of": "Set {name}",
   "verify.set.was": "Edited; the recorded value was {value}",
   "verify.set": "Set",
@@ -277,7 +276,8 @@ export const verify = {
   "whatif.none":
     "Choose a scan and other values of inputs: the recorded run goes on from there, while the PLC goes on. The values are set before the scan; what the program writes itself before it reads it is not changed by that.",
   "whatif.output": "differ after scan {scan}",
-  "whatif.output.part": "as recorded in {scans} scans",
+  "whatif.output.part": "as recorded in {count} scans",
+  "whatif.output.part.one": "as recorded in 1 scan",
   "whatif.output.same": "as recorded",
   "whatif.recorded": "As recorded",
   "whatif.results": "What came of it",
@@ -292,6 +292,7 @@ export const verify = {
   "whatif.tried.hint": "1, 2, 5 or 0..100/5",
   "whatif.values": "Set",
   "whatif.values.hint": "start = TRUE; level = 40",
+  "whatif.undisturbed": "Without the disturbances",
   "whatif.vary": "Variable",
   "whatif.watch": "Show at the end",
   "whatif.window": "Scans",

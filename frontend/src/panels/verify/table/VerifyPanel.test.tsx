@@ -1,11 +1,19 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { useWhatIf } from "../../../store/verify/whatif";
 import { button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { refusal } from "../../../testing/routes";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { VerificationInfo, VerifyColumn, VerifyDifference, VerifyRow, VerifyUse } from "../../../wire/types";
+import type {
+  PlcSymbol,
+  VerificationInfo,
+  VerifyColumn,
+  VerifyDifference,
+  VerifyRow,
+  VerifyUse,
+} from "../../../wire/types";
 import { VerifyPanel } from "./VerifyPanel";
 
 const WRONG = 501;
@@ -91,6 +99,11 @@ const INFO: VerificationInfo = {
   stretches: [[500, 502]],
   trace: "",
 };
+
+const symbolAt = (path: string): PlcSymbol => ({
+  ...{ path, name: path, type: "INT", kind: "int", size: 2, address: null, writable: true },
+  ...{ section: "var", expandable: false, values: [], range: "", in_out: false },
+});
 
 const USE: VerifyUse = {
   name: "barrier",
@@ -192,6 +205,16 @@ test("from a difference one goes to its scan, and sees every use of a variable",
   await waitFor(() => expect(facts()).toContain(`20barrier${t("verify.uses.written")}`));
   await user.click(button(t("verify.goto")));
   await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: WRONG }]));
+});
+
+test("what if: the result of a variable inside of a block is asked for by its whole path", async () => {
+  const { server, user } = await openVerify();
+  const inside = ["Main.belt.barrier", "Main.belt.position"].map(symbolAt);
+  server.on("GET", "/instances/*/symbols", () => inside);
+  await user.click(button(t("verify.first")));
+  await user.click(await screen.findByRole("button", { name: t("whatif.show") }));
+  await waitFor(() => expect(useWhatIf.getState().form.condition).toBe("Main.belt.barrier = TRUE"));
+  expect(useWhatIf.getState().form.candidates).toBe("Main.belt.position");
 });
 
 test("of a controller log it says what was compared, and what was not", async () => {

@@ -8,7 +8,7 @@ import type { WhatIf, WhatIfTry } from "../../../wire/types";
 
 /** The run as it was recorded, and each try beside it. */
 export function Results({ found }: { found: WhatIf }) {
-  const { wanted, recorded, tries, best, note, scenario } = found;
+  const { wanted, recorded, undisturbed, tries, best, note, scenario } = found;
   return (
     <section className="whatifview" aria-label={t("whatif.results")}>
       {(note || scenario) && (
@@ -42,7 +42,8 @@ export function Results({ found }: { found: WhatIf }) {
             </tr>
           </thead>
           <tbody>
-            <Line tried={recorded} found={found} best={false} />
+            <Line tried={recorded} found={found} best={false} name={t("whatif.recorded")} />
+            {undisturbed && <Line tried={undisturbed} found={found} best={false} name={t("whatif.undisturbed")} />}
             {tries.map((tried, at) => (
               // biome-ignore lint/suspicious/noArrayIndexKey: the tries of one answer keep their places
               <Line key={at} tried={tried} found={found} best={at === best} />
@@ -54,13 +55,21 @@ export function Results({ found }: { found: WhatIf }) {
   );
 }
 
-function Line({ tried, found: { wanted }, best }: { tried: WhatIfTry; found: WhatIf; best: boolean }) {
-  const { met, output_scan: output, shown, trapped, refused, ran, compared, values } = tried;
-  const isRecorded = values.length === 0;
+interface LineProps {
+  tried: WhatIfTry;
+  found: WhatIf;
+  best: boolean;
+  /** Of what has no other values. */
+  name?: string;
+}
+
+function Line({ tried, found: { wanted, recorded }, best, name }: LineProps) {
+  const { met, output_scan: output, shown, trapped, refused, ran, compared } = tried;
+  const isRecorded = tried === recorded;
   return (
     <tr className={best ? "on" : ""} data-best={best || undefined}>
-      <td className={isRecorded ? "muted" : "mono"}>
-        {isRecorded ? t("whatif.recorded") : changeOf(tried)}
+      <td className={name ? "muted" : "mono"}>
+        {name ?? changeOf(tried)}
         {best && <StateWord tone="running" icon="check" word={t("whatif.best")} />}
         {trapped && <small className="st fatal">{t("whatif.trapped", { text: trapped })}</small>}
         {refused.map((each) => (
@@ -75,7 +84,7 @@ function Line({ tried, found: { wanted }, best }: { tried: WhatIfTry; found: Wha
           !isRecorded &&
           (output === null || output === undefined
             ? compared > 0 &&
-              t(compared === ran ? "whatif.output.same" : "whatif.output.part", { scans: grouped(compared) })
+              t(compared === ran ? "whatif.output.same" : "whatif.output.part", { count: grouped(compared) })
             : t("whatif.output", { scan: grouped(output) }))}
       </td>
       {wanted.watch.map((path, at) => (

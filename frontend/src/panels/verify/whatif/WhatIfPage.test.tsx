@@ -36,6 +36,7 @@ test("the smallest change is asked for, marked among what was tried, and a refus
           condition: "motor",
         },
         recorded: TRY,
+        undisturbed: { ...TRY, shown: ["7"] },
         tries: [
           { ...TRY, values: [{ path: "speed", value: "32" }] },
           { ...TRY, values: [{ path: "speed", value: "37" }], met: 20, output_scan: 21, shown: ["4"] },
@@ -57,8 +58,10 @@ test("the smallest change is asked for, marked among what was tried, and a refus
   await user.click(button(t("whatif.do")));
   const table = await screen.findByRole("table", { name: t("whatif.results") });
   expect(asked).toMatchObject([{ scan: 20, search: true, candidates: ["speed"], condition: "motor", watch: ["n"] }]);
-  const [, recorded, first, second] = within(table).getAllByRole("row");
+  const [, recorded, undisturbed, first, second] = within(table).getAllByRole("row");
   expect(recorded?.textContent).toContain(t("whatif.recorded"));
+  expect(undisturbed?.textContent).toContain(t("whatif.undisturbed"));
+  expect(undisturbed?.textContent).toContain(t("whatif.output.same"));
   expect(first?.textContent).toContain(t("whatif.met.not"));
   expect(second?.textContent).toContain(t("whatif.best"));
   expect(second?.textContent).toContain(t("whatif.met", { scan: "20" }));
