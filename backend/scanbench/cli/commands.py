@@ -5,9 +5,11 @@ from importlib import import_module
 from typing import cast
 
 import typer
+from typer._click import Context
 from typer.core import TyperCommand, TyperGroup
 
 from scanbench import __version__
+from scanbench.cli.junit_begun import begin_junit
 from scanbench.garbage import without_collection
 
 _Built = TyperCommand | TyperGroup
@@ -43,6 +45,11 @@ class _Group(TyperGroup):
 
     def __init__(self, **given: object) -> None:
         super().__init__(**{**given, "commands": _Commands()})  # type: ignore[arg-type]
+
+    def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
+        """Before anything is refused."""
+        begin_junit(args)
+        return super().parse_args(ctx, args)
 
     def list_commands(self, ctx: object) -> list[str]:
         """Their names: to know them is not to import them."""

@@ -7,6 +7,7 @@ from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.sweep_report import count
 from scanbench.reports.value_text import column_of, differing_bits, value_text
 from scanbench.verify.contract import ENDED, Column, Compared, Mismatch, Row, VerifyCoverage
+from scanbench.verify.verdict import skipped, taken_over
 
 STRETCHES = 5
 """Of scans that were not compared that are named."""
@@ -56,7 +57,10 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
         ("not compared, columns that are mapped to nothing", coverage.ignored),
         ("not compared, as the file has no column of them", coverage.unrecorded),
         ("remembered by the program, and not in the file: the first rows told", coverage.assumed),
-        ("read by the program, and not in the file: the reference took the start values of", coverage.ungiven),
+        (
+            "read by the program, and without a value in the file: the reference took the start values of",
+            coverage.ungiven,
+        ),
         ("remembered by the program, and not in the file: they began as after a cold start", coverage.remembered),
     )
     for what, names in kinds:
@@ -65,8 +69,8 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
 
 
 def _told(output: Compared) -> str:
-    parts = [f"{output.compared:,}"]
-    parts += [f"{output.differing:,} differ"] if output.differing else []
+    parts = [f"{output.compared:,} compared"]
+    parts += [_differ(output.differing, f"{output.differing:,}")] if output.differing else []
     parts += [f"{output.allowed:,} within the tolerance"] if output.allowed else []
     parts += [f"{output.left_open:,} within what rounded numbers leave open"] if output.left_open else []
     parts += [f"{output.missing:,} without a value to compare"] if output.missing else []
@@ -74,14 +78,20 @@ def _told(output: Compared) -> str:
     return ", ".join(parts)
 
 
+def _differ(number: int, what: str) -> str:
+    return f"{what} differ{'s' * (number == 1)}"
+
+
 def verify_junit(report: Report, lost: str = "") -> str:
-    """Cases: that all was compared, that there is no difference, and of a trace each output. `lost`: what of the run is not there."""
+    """Cases: that all scans were compared, that there is no difference, and of a trace that all inputs have values, and each output.
+    `lost`: what of the run is not there."""
     head, differences = report.head, report.differences()
     group, said = f"{head.project}.verify", summary(report)
     nothing = report.idle or not head.compared
-    whole = Case(group, f"{head.title}: all scans are compared", text=said)
-    if nothing or head.partly or lost:
-        message = ". ".join(filter(None, (said if nothing or head.partly else "", lost)))
+    which = "all scans after the first" if taken_over(head) else "all scans"
+    whole = Case(group, f"{head.title}: {which} are compared", text=said)
+    if nothing or skipped(head) or lost:
+        message = ". ".join(filter(None, (said if nothing or skipped(head) else "", lost)))
         whole = Case(group, whole.name, "error", message, "not_compared", head.note)
     same = Case(group, f"{head.title}: no difference")
     if head.differing:
@@ -90,14 +100,26 @@ def verify_junit(report: Report, lost: str = "") -> str:
         same = Case(group, same.name, "failure", message, "difference", f"{text}\n\n{said}".strip())
     elif nothing:
         same = Case(group, same.name, "skipped", "nothing was compared")
-    outputs = () if head.coverage is None else head.coverage.outputs
-    return junit(f"{head.project} on {head.model}", (whole, same, *(_output(group, each) for each in outputs)))
+    values = () if head.coverage is None else _values(group, head.title, head.coverage)
+    return junit(f"{head.project} on {head.model}", (whole, same, *values))
+
+
+def _values(group: str, title: str, coverage: VerifyCoverage) -> Iterator[Case]:
+    """What there has to be in a trace."""
+    given = Case(group, f"{title}: all inputs have values")
+    if coverage.ungiven:
+        message = f"the reference took the start values of {', '.join(coverage.ungiven)}: the file has no value of them"
+        given = Case(group, given.name, "error", message, "not_given")
+    yield given
+    yield from (_output(group, each) for each in coverage.outputs)
 
 
 def _output(group: str, output: Compared) -> Case:
     name, told = f"output {output.path}", _told(output)
     if output.differing:
         return Case(group, name, "failure", f"{output.path}: {told}", "difference")
+    if output.missing:
+        return Case(group, name, "error", f"{output.path}: {told}", "not_compared")
     if not output.compared:
         return Case(group, name, "skipped", f"{output.path}: {told}")
     return Case(group, name, text=f"{output.path}: {told}")
@@ -106,18 +128,19 @@ def _output(group: str, output: Compared) -> Case:
 def summary(report: Report) -> str:
     """One sentence: what was compared, and what came of it."""
     head = report.head
-    part = head.skipped or head.not_reached or head.unfinished
+    missing = head.coverage is not None and any(each.missing for each in head.coverage.outputs)
+    part = head.skipped or head.not_reached or head.unfinished or missing
     same = "no difference in what was compared" if part else "no difference"
     if head.coverage is not None and head.coverage.ungiven:
-        same += f", if {count(len(head.coverage.ungiven), 'input')} without a column had the start value"
-    came = f"{count(head.differing, 'row')} differ" if head.differing else same
+        same += f", if {count(len(head.coverage.ungiven), 'input')} had the start value where the file has no value"
+    came = _differ(head.differing, count(head.differing, "row")) if head.differing else same
     if not head.differing and (report.idle or not head.compared):
         came = "nothing was compared, as the range did not run in them" if report.idle else "nothing was compared"
-    skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
+    left = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
     unreached = f", {head.not_reached:,} that were asked for did not run" if head.not_reached else ""
     return (
         f"{head.project} on {head.model}, {head.title}: scans {head.first} to {head.last}, "
-        f"{0 if report.idle else head.compared:,} compared{skipped}{unreached}: {came}"
+        f"{0 if report.idle else head.compared:,} compared{left}{unreached}: {came}"
     )
 
 

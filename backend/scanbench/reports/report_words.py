@@ -42,8 +42,8 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "unrecorded": "Written by the program, and not in the file",
         "assumed": "Remembered by the program, and not in the file: the first rows told",
         "remembered": "Remembered by the program, and not in the file: they began as after a cold start",
-        "ungiven": "Read by the program, and not in the file: the reference took the start values",
-        "ungiven_text": "This holds if the inputs that are not in the file had their start values.",
+        "ungiven": "Read by the program, and without a value in the file: the reference took the start values",
+        "ungiven_text": "This holds if the inputs had their start values where the file has no value of them.",
     },
     "ja": {
         "title": "検証報告書", "range": "検証範囲", "scans": "スキャン", "source": "制御装置", "live": "運転中のPLC", "past": "記録された運転（ネイティブ再実行）",
@@ -78,7 +78,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "unrecorded": "プログラムが書き、ファイルにないもの",
         "assumed": "プログラムが記憶し、ファイルにないもの（最初の行からわかった値）",
         "remembered": "プログラムが記憶し、ファイルにないもの（コールドスタート後の値から開始）",
-        "ungiven": "プログラムが読み、ファイルにないもの（リファレンスは初期値を使用）",
-        "ungiven_text": "ファイルにない入力が初期値であった場合の結果です。",
+        "ungiven": "プログラムが読み、ファイルに値がないもの（リファレンスは初期値を使用）",
+        "ungiven_text": "ファイルに値がないところで、入力が初期値であった場合の結果です。",
     },
 }  # fmt: skip

@@ -59,10 +59,20 @@ class Counted(Protocol):
 def partly(of: Counted) -> bool:
     """Whether something of what was asked was not compared, or the verdict depends on values that nobody recorded. The first scan of a
     controller log is taken over in any case."""
-    taken_over = bool(of.trace and of.stretches and of.stretches[0][0] == of.first)
-    ungiven = of.coverage is not None and bool(of.coverage.ungiven)
-    skipped = of.full if of.sampled else of.skipped - taken_over
-    return skipped > 0 or ungiven or of.not_reached > 0 or of.unfinished
+    coverage = of.coverage
+    unvalued = coverage is not None and (bool(coverage.ungiven) or any(each.missing for each in coverage.outputs))
+    return unvalued or skipped(of)
+
+
+def taken_over(of: Counted) -> bool:
+    """Whether the first scan is not compared, as the reference begins with it."""
+    return bool(of.trace and of.stretches and of.stretches[0][0] == of.first)
+
+
+def skipped(of: Counted) -> bool:
+    """Whether a scan of what was asked was not compared, but for one that was taken over."""
+    left = of.full if of.sampled else of.skipped - taken_over(of)
+    return left > 0 or of.not_reached > 0 or of.unfinished
 
 
 def verdict(of: Counted, idle: bool) -> Verdict:

@@ -153,10 +153,12 @@ def test_an_input_without_a_column_is_named_and_the_verdict_depends_on_it(tmp_pa
     assert result.returncode == 4, result  # a verdict with a condition is none that a script may rely on
     assert json.loads(scanbench("verify", str(source), "--trace", str(trace), "--json").stdout)["same"] is None
     assert "No difference in what was compared" in page.read_text("utf-8")
-    took = "read by the program, and not in the file: the reference took the start values of: Main.start, Main.raw\n"
+    took = "read by the program, and without a value in the file: the reference took the start values of: Main.start, Main.raw\n"
     assert took in result.stdout
-    assert "2 compared: no difference, if 2 inputs without a column had the start value" in result.stdout
-    assert "This holds if the inputs that are not in the file had their start values." in page.read_text("utf-8")
+    assert "2 compared: no difference, if 2 inputs had the start value where the file has no value" in result.stdout
+    assert "This holds if the inputs had their start values where the file has no value of them." in page.read_text(
+        "utf-8"
+    )
     trace.write_text("scan,motor,start,raw\n0,0,0,0\n1,0,0,0\n")
     result = scanbench("verify", str(source), "--trace", str(trace))
     assert (result.returncode, result.stdout.endswith("2 compared: no difference\n")) == (0, True)
@@ -211,7 +213,7 @@ def test_a_file_of_a_vendors_tool_and_what_of_it_was_compared(tmp_path: Path) ->
     result = scanbench(*given)
     assert result.returncode == 0, result
     assert "scope.csv is read as: TwinCAT Scope." in result.stderr
-    assert "  Main.motor: 119, 1 without a value to compare" in result.stdout
+    assert "  Main.motor: 119 compared\n" in result.stdout
     assert "not compared, as the file has no column of them: Main.belt.run" in result.stdout
     page = tmp_path / "report.html"
     trace.write_bytes(FILES["twincat.csv"](faulty_trace("motor")))

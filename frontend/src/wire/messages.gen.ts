@@ -10186,7 +10186,7 @@ export interface components {
             left_open: number;
             /**
              * Missing
-             * @description Scans in the trace of which there is no value, or one that was taken over.
+             * @description Scans that were compared, and of which the trace has no value of it.
              */
             missing: number;
             /** Path */
@@ -10226,8 +10226,8 @@ export interface components {
             remembered: string[];
             /**
              * Ungiven
-             * @description What the range read, the program never writes and the file has no column of: the monitor took the start value, and the controller
-             *     may have had another one.
+             * @description What the range read, the program never writes and the file has no column of, or no value in the first row: the monitor took the start
+             *     value, and the controller may have had another one.
              */
             ungiven: string[];
             /**

@@ -50,7 +50,7 @@ class VerifyCompared(TypedDict):
     left_open: int
     """That agree only because rounded numbers do not tell."""
     missing: int
-    """Scans in the trace of which there is no value, or one that was taken over."""
+    """Scans that were compared, and of which the trace has no value of it."""
     largest: float
     """By how much a number was off at most, of those that are not the same; of a TIME in ns."""
 
@@ -72,7 +72,7 @@ class VerifyCoverage(TypedDict):
     assumed: list[str]
     """Remembered variables of which the first rows told what they were: `Main.belt.on = TRUE`."""
     ungiven: list[str]
-    """What the range read, the program never writes and the file has no column of: the monitor took the start value, and the controller may have had another one."""
+    """What the range read, the program never writes and the file has no column of, or no value in the first row: the monitor took the start value, and the controller may have had another one."""
 
 
 class VerificationInfo(TypedDict):

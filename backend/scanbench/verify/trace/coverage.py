@@ -27,6 +27,7 @@ class _Count:
     differing: int = 0
     allowed: int = 0
     left_open: int = 0
+    missing: int = 0
     largest: float = 0.0
 
     def add(self, signal: Signal, recorded: bytes, found: bytes, agrees: Agrees) -> None:
@@ -46,12 +47,14 @@ class Tally:
         self._program, self._sites, self._trace = program, sites, trace
         self._counts = [_Count() for _ in trace.outputs]
         self._until = -1
-        self._scans = 0
         self._remembered: dict[str, Leaf] = {}
         self._assumed: tuple[Assumed, ...] = ()
         self._ungiven: dict[str, bool] = {}
         """What was read: whether nobody gives it a value."""
         self._mapped = {bit for each in (*trace.inputs, *trace.outputs) for bit in bits_of(each.symbol)}
+        given = (each for each in trace.inputs if each.values and each.values[0] is not None)
+        self._given = {bit for each in (*given, *trace.outputs) for bit in bits_of(each.symbol)}
+        """Of them what has a value from the first row on: an input without one has its start value until then."""
 
     def remember(self, read: Mapping[str, Leaf]) -> Mapping[str, Leaf]:
         """Of what the program read in a scan before it wrote it: what it has from the scan before, and the trace does not."""
@@ -76,10 +79,13 @@ class Tally:
         self._until = scan
         if ran.recorded.row is None:
             return
-        self._scans += 1
         wanted = {id(each) for each in shown}
         for count, each in zip(self._counts, ran.results, strict=True):
-            if each.recorded is not None and not ran.recorded.taken_over and id(each.signal) in wanted:
+            if ran.recorded.taken_over or id(each.signal) not in wanted:
+                continue
+            if each.recorded is None:
+                count.missing += 1
+            else:
                 count.add(each.signal, each.recorded, each.found, each.agrees)
 
     def read(self, read: Iterable[Leaf]) -> None:
@@ -100,7 +106,7 @@ class Tally:
             symbol.constant or symbol.slots or symbol.tool != "write"
         ):  # what no tool writes is the business of the system
             return False
-        return self._mapped.isdisjoint(bits_of(symbol)) and not written(self._program, self._sites, symbol)
+        return self._given.isdisjoint(bits_of(symbol)) and not written(self._program, self._sites, symbol)
 
     def _is_memory(self, name: str, leaf: Leaf) -> bool:
         """Whether the program has it from the scan before, and the trace does not."""
@@ -112,7 +118,7 @@ class Tally:
         outputs = tuple(
             Compared(
                 each.column, each.path, count.compared, count.differing, count.allowed, count.left_open,
-                self._scans - count.compared, count.largest,
+                count.missing, count.largest,
             )
             for each, count in zip(self._trace.outputs, self._counts, strict=True)
         )  # fmt: skip
@@ -120,7 +126,7 @@ class Tally:
         ungiven = [name for name, nobody in self._ungiven.items() if nobody]
         more = sum(max(0, len(each) - MOST_NAMES) for each in (unrecorded, remembered, ungiven))
         return VerifyCoverage(
-            outputs, tuple(each.path for each in self._trace.inputs), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
+            outputs, tuple(each.path for each in self._trace.inputs if any(one is not None for one in each.values)), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
             tuple(remembered[:MOST_NAMES]), more, tuple(map(str, self._assumed)),
             tuple(ungiven[:MOST_NAMES]),
         )  # fmt: skip

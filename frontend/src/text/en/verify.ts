@@ -45,7 +45,7 @@ export const verify = {
   "verify.coverage.more": "{count} more variables are not in the log.",
   "verify.coverage.output": "Output",
   "verify.coverage.remembered": "Remembered by the program, not in the log: began as after a cold start",
-  "verify.coverage.ungiven": "Read by the program, not in the log: the start values were taken",
+  "verify.coverage.ungiven": "Read by the program, without a value in the log: the start values were taken",
   "verify.coverage.unrecorded": "Written by the program, not in the log",
   "verify.columns": "Columns",
   "verify.column": "Column",

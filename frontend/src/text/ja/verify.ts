@@ -44,7 +44,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.coverage.more": "ログにない変数がほかに {count} 個あります。",
   "verify.coverage.output": "出力",
   "verify.coverage.remembered": "プログラムが記憶し、ログにないもの（コールドスタート後の値から開始）",
-  "verify.coverage.ungiven": "プログラムが読み、ログにないもの（初期値を使用）",
+  "verify.coverage.ungiven": "プログラムが読み、ログに値がないもの（初期値を使用）",
   "verify.coverage.unrecorded": "プログラムが書き、ログにないもの",
   "verify.columns": "列",
   "verify.column": "列",
