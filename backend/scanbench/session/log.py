@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Sequence
 
-from scanbench.runtime.clock import wall_time
+from scanbench.host.marks import mark_of
+from scanbench.host.repeats import Repeats
+from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.runtime.command import Entry
 from scanbench.session.errors import LIVING
 from scanbench.session.marks import Marks
-from scanbench.session.tool_writes import ToolWrites
 from scanbench.symbols.violations import Violations
 from scanbench.wire import events
 from scanbench.wire.events import Event, LogEntry
@@ -26,7 +27,7 @@ class Log:
     ) -> None:  # fmt: skip
         self._lines = list(lines)[-LOG_LINES:]
         self._publish, self._keep, self._state = publish, keep, state
-        self._marks, self._tool_writes = Marks(), ToolWrites()
+        self._marks, self._repeats = Marks(), Repeats()
         self._violations = Violations()
         self._halted = 0
         """The number of the halt that was told last."""
@@ -47,7 +48,8 @@ class Log:
         return self._violations
 
     def add(self, author: str, text: str, category: MarkKind = "run", scan: int | None = None) -> None:
-        """One more line, of now; of the scan that is shown unless one is given."""
+        """One more line, of now; of the scan that is shown unless one is given. What happened before it is told before it."""
+        self._tell(self._repeats.held(monotonic_ns()))
         self._add(LogEntry(wall_time(), self._state().scan if scan is None else scan, author, text, category))
 
     def _add(self, line: LogEntry) -> None:
@@ -73,8 +75,7 @@ class Log:
 
     def on_state(self, before: str, state: PlcState) -> None:
         """The PLC's state changed."""
-        for entry, text in self._tool_writes.due():
-            self._add(_line_of(entry, text))
+        self._tell(self._repeats.due(monotonic_ns()))
         if state.state != before and "silent" in (state.state, before):
             text = state.message if state.state == "silent" else "the PLC's process answers again"
             if state.state in ("silent", *LIVING):
@@ -83,9 +84,21 @@ class Log:
             self.add("server", state.message, "system", state.scan)
 
     def on_entries(self, entries: Sequence[Entry]) -> None:
-        """What was entered: all of it is kept; of a program that raises errors all the time most is summed up, not shown."""
-        self._publish(self._marks.add(entries))
-        lines = [line for line in map(self._line, entries) if line is not None]
+        """What was entered: of what repeats itself a line now and then; all of it is in the run."""
+        found: list[tuple[Entry, str]] = []
+        now = monotonic_ns()
+        for entry in entries:
+            text = self._repeats.text(entry, now)
+            if text is not None:
+                found += [*self._repeats.held(now), (entry, text)]
+        self._tell(found)
+
+    def _tell(self, found: Sequence[tuple[Entry, str]]) -> None:
+        """Lines and marks of entries: all are kept; of many at once most are summed up, not shown."""
+        if not found:
+            return
+        self._publish(self._marks.add([mark_of(entry, text) for entry, text in found]))
+        lines = [_line_of(entry, text) for entry, text in found]
         for line in lines[:LISTED]:
             self._add(line)
         if len(lines) > LISTED:
@@ -93,10 +106,6 @@ class Log:
                 self._keep(line)
             last, more = lines[-1], len(lines) - LISTED
             self._show(LogEntry(last.at, last.scan, last.author, f"... and {more} more entries", "system"))
-
-    def _line(self, entry: Entry) -> LogEntry | None:
-        text = self._tool_writes.text(entry)
-        return None if text is None else _line_of(entry, text)
 
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the log."""

@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 
 from scanbench.debug.halt import Halt
-from scanbench.host.marks import LIMIT, LONGEST, marks_of
+from scanbench.host.marks import LIMIT, LONGEST
 from scanbench.recording.recording import RecordingInfo
-from scanbench.runtime.command import Entry
 from scanbench.wire.events import TimelineChanged
 from scanbench.wire.host import RunMark, RunMarks
 
@@ -26,9 +25,9 @@ class Marks:
         del self._marks[:-LIMIT]
         return TimelineChanged(told.info, told.marks, told.fresh)
 
-    def add(self, entries: Sequence[Entry]) -> TimelineChanged:
+    def add(self, marks: Sequence[RunMark]) -> TimelineChanged:
         """Marks of new entries; the event for everybody."""
-        return self.take(RunMarks(self._info, marks_of(entries), fresh=False))
+        return self.take(RunMarks(self._info, tuple(marks), fresh=False))
 
     def halted(self, halt: Halt) -> TimelineChanged:
         """A mark where a debugger halted the PLC, though the journal knows nothing of it."""

@@ -27,6 +27,7 @@ from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.invalid import said
 from scanbench.web.socket.drafting import Drafting
+from scanbench.web.socket.paced import Paced
 from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
 from scanbench.wire.commands import read_command
@@ -66,7 +67,7 @@ class Client:
         self._id = 0
         self._ids: set[int] = set()
         self._texts = Waiting()
-        self._state: events.StateChanged | None = None
+        self._paced = Paced()
         self._frames: deque[bytes] = deque()
         self._stale = False
         self._asked = False
@@ -82,13 +83,15 @@ class Client:
     # ---- from the session -----------------------------------------------------------------------------------------
 
     def on_event(self, event: Event) -> None:
-        """Queues it; of states, and of where people are, only the newest is worth sending."""
+        """Queues it; of states, of rows of errors, and of where people are, only the newest is worth sending."""
         if isinstance(event, events.LogpointSaid | events.WrittenInside):
             return
         if isinstance(event, events.WatchListChanged) and event.owner not in ("", self.user.name):
             return
         if isinstance(event, events.StateChanged):
-            self._state = event
+            self._paced.state(event)
+        elif isinstance(event, events.ErrorsChanged):
+            self._paced.errors(event)
         elif isinstance(event, PeopleChanged):
             self._others = event
         elif isinstance(event, events.Watching):
@@ -175,17 +178,21 @@ class Client:
 
     async def _write(self) -> None:
         while True:
+            due = self._paced.wait_s()
             try:
-                async with asyncio.timeout(ALIVE_AFTER_S):
+                async with asyncio.timeout(ALIVE_AFTER_S if due is None else due):
                     await self._wake.wait()
             except TimeoutError:
-                await self._socket.send_text(_text(wire.Alive()))
-                continue
+                if due is None:
+                    await self._socket.send_text(_text(wire.Alive()))
+                    continue
             self._wake.clear()
+            is_due = self._paced.wait_s() == 0
+            if is_due:
+                self._add_errors()
             while self._texts:
                 await self._socket.send_text(self._texts.take())
-            if self._state is not None:
-                state, self._state = self._state, None
+            if is_due and (state := self._paced.take_state()) is not None:
                 await self._socket.send_text(_text(translate.event(state)))
             if self._others is not None:
                 others, self._others = self._others, None
@@ -196,9 +203,15 @@ class Client:
                 self._asked = True
                 self._session.watching.want_snapshot(self._id)
 
+    def _add_errors(self) -> None:
+        errors = self._paced.take_errors()
+        if errors is not None:
+            self._texts.add(_text(translate.event(errors)))
+
     def _answer(
         self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = (), final: bool = False
     ) -> None:
+        self._add_errors()
         self._texts.add(_text(wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near), final=final)))
         self._wake.set()
 
