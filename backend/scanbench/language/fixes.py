@@ -85,14 +85,13 @@ def _wanted(reading: Reading, file: str, around: Around, name: str, at: int) -> 
     assigned = re.search(rf"(?:^|;|THEN|ELSE|DO|:)\s*{name}\s*:=\s*([^;]+);", line, re.IGNORECASE)
     target = re.search(rf"([^\W\d][\w.]*(?:\[[^\]]*\])?)\s*:=\s*{name}\s*;", line, re.IGNORECASE)
     found = assigned or target
-    if found is None:
+    if found is None and (argument := _argument(text, name, at)) is None:
         condition = re.search(rf"\b(IF|ELSIF|WHILE|UNTIL|AND|OR|NOT)\s+{name}\b", line, re.IGNORECASE)
-        # a contact or coil of a rung; an index of an array follows a name
-        drawn = re.search(
-            rf"(?:^|[^\w\s])\s*(?:\[\s*(?:/|[PN]\s)?\s*{name}\s*\]|\(\s*(?:/|[SRPN]\s)?\s*{name}\s*\))", line
-        )
-        return "BOOL" if condition or drawn else "INT"
-    body, node = reading.body(around), parsed(found.group(1))
+        # an index of an array follows a name
+        drawn = re.search(rf"(?:^|[^\w\s])\s*{_element(name)}", line, re.IGNORECASE)
+        return "BOOL" if condition or drawn or _in_rung(text, name, at) else "INT"
+    written = found.group(1) if found is not None else argument
+    body, node = reading.body(around), parsed(written)
     if body is None or node is None:
         return "INT"
     with reading.project.checker.declarations.names.within(Space(around.pou.namespace, around.pou.using)):
@@ -102,3 +101,24 @@ def _wanted(reading: Reading, file: str, around: Around, name: str, at: int) -> 
         except Rejected:
             return "INT"
     return "INT" if type is None else str(type)
+
+
+def _element(name: str) -> str:
+    """A contact or coil of a rung."""
+    return rf"(?:\[\s*(?:/|[PN]\s)?\s*{name}\s*\]|\(\s*(?:/|[SRPN]\s)?\s*{name}\s*\))"
+
+
+def _in_rung(text: str, name: str, at: int) -> bool:
+    """Whether the name at this place is that of a contact or coil. There one may follow the output of a box, after a blank."""
+    line = text.rfind("\n", 0, at) + 1
+    if not re.search(r"(?:^|\n)\s*RUNG\b(?:(?!END_RUNG).)*$", text[:line], re.IGNORECASE | re.DOTALL):
+        return False
+    elements = re.finditer(rf"(?<![\w.]){_element(name)}", text[line:], re.IGNORECASE)
+    return any(each.start() <= at - line < each.end() for each in elements)
+
+
+def _argument(text: str, name: str, at: int) -> str | None:
+    """The input of an instance that the name alone is given to: `timer.PT`."""
+    before = re.search(r"([^\W\d][\w.]*)\s*\(([^()]*?)([^\W\d]\w*)\s*:=\s*$", text[:at])
+    alone = re.match(r"\s*[,)]", text[at + len(name) :])
+    return f"{before.group(1)}.{before.group(3)}" if before and alone else None

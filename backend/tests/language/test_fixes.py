@@ -78,6 +78,9 @@ def test_a_problem_is_mended_in_its_place(body: str, where: str, title: str, bec
         ("fresh := r * 2.0;", "REAL"), ("r := fresh;", "REAL"), ("IF fresh THEN n := 1; END_IF;", "BOOL"),
         ("fresh := p;", "Point"), ("n := 2 + fresh;", "INT"), ("fresh := undeclared;", "INT"),
         ("RUNG\n[b] [P fresh] (c)\nEND_RUNG", "BOOL"), ("RUNG\n[b] (S fresh)\nEND_RUNG", "BOOL"),
+        ("RUNG\n[b] t(IN := ~, PT := T#1s).Q (fresh)\nEND_RUNG", "BOOL"),
+        ("RUNG\n(b) (R fresh)\nEND_RUNG", "BOOL"), ("RUNG\n[b] t(IN := ~, PT := T#1s).Q [/fresh] (c)\nEND_RUNG", "BOOL"),
+        ("RUNG\n[b] t(IN := ~, PT := fresh).Q (c)\nEND_RUNG", "TIME"), ("t(PT := fresh, IN := b);", "TIME"),
     ],
 )  # fmt: skip
 def test_a_missing_variable_is_declared_with_the_type_that_fits(body: str, type: str) -> None:
