@@ -5,6 +5,8 @@ import { Icon, type IconName } from "./Icon";
 
 export interface MenuItem {
   label: string;
+  /** The end of the label, which is not cut where there is no room for all of it. */
+  end?: string;
   /** Where several items have the same label. */
   key?: string;
   icon?: IconName;
@@ -127,10 +129,20 @@ function MenuEntry({ item, onClose }: { item: MenuItem; onClose: () => void }) {
         }}
       >
         {icon ? <Icon name={icon} small /> : <span className="noicon" />}
-        <span className="cut">{item.label}</span>
+        <MenuLabel {...item} />
         {item.hint && <span className="k">{item.hint}</span>}
       </button>
     </>
+  );
+}
+
+function MenuLabel({ label, end }: MenuItem) {
+  if (!end || !label.endsWith(end)) return <span className="cut">{label}</span>;
+  return (
+    <span className="endkept" title={label}>
+      <span className="cut">{label.slice(0, -end.length)}</span>
+      <span className="cut">{end}</span>
+    </span>
   );
 }
 

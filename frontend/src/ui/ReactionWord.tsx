@@ -9,7 +9,7 @@ interface Props {
   title?: string;
 }
 
-/** The verdict in short, or that the reaction is still being computed. What is not as required comes before the verdict. */
+/** The verdict in short, or that the reaction is still being computed. Findings are told with it. */
 export function ReactionWord({ reaction: { state, verdict, unmet, message }, title = message }: Props) {
   if (state === "recording")
     return (
@@ -22,9 +22,8 @@ export function ReactionWord({ reaction: { state, verdict, unmet, message }, tit
     );
   const known = state === "failed" ? null : verdict;
   if (known && unmet > 0) {
-    const word = t("sweep.unmet", { count: unmet });
-    const about = `${t(`verdict.${known}`)}: ${word}`;
-    return <StateWord tone="unmet" icon="error" word={word} title={[about, title].filter(Boolean).join(" · ")} />;
+    const word = t("reaction.unmet", { grade: t(`verdict.${known}`), unmet: t("sweep.unmet", { count: unmet }) });
+    return <StateWord tone="unmet" icon="error" word={word} title={[word, title].filter(Boolean).join(" · ")} />;
   }
   return (
     <StateWord

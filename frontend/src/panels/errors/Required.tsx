@@ -5,30 +5,48 @@ import { StateWord } from "../../ui/StateWord";
 import type { Reaction } from "../../wire/types";
 import "./required.css";
 
-/** What the project requires when the error comes and goes, and what became of each requirement. */
-export function Required({
-  required,
-  restarts = [],
-}: Pick<Reaction, "required"> & Partial<Pick<Reaction, "restarts">>) {
+type Found = Pick<Reaction, "required"> & Partial<Pick<Reaction, "restarts">>;
+
+/** What the project requires when the error comes and goes, and what became of each requirement; and restarts that it does not allow. */
+export function Required({ required, restarts = [] }: Found) {
+  return (
+    <>
+      <OfProject required={required} restarts={restarts.filter((each) => each.allowed_by)} />
+      <Unexpected restarts={restarts.filter((each) => !each.allowed_by)} />
+    </>
+  );
+}
+
+/** No project requires this: it is checked in each. */
+function Unexpected({ restarts }: Pick<Reaction, "restarts">) {
+  if (restarts.length === 0) return null;
+  return (
+    <section className="required" aria-label={t("required.restart.rule")}>
+      <span className="faint">{t("required.restart.rule")}</span>
+      <ul>
+        {restarts.map(({ path, scan }) => (
+          <li key={path}>
+            <StateWord tone="never_read" icon="warning" word={t("required.restart")} />
+            <span className="mono">{path}</span>
+            <span className="why muted">{t("required.restart.about", { scan, name: path })}</span>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function OfProject({ required, restarts }: Pick<Reaction, "required" | "restarts">) {
   if (required.length === 0 && restarts.length === 0) return null;
   return (
     <section className="required" aria-label={t("required.label")}>
       <span className="faint">{t("required.label")}</span>
       <ul>
-        {restarts.map((restart) => (
-          <li key={restart.path}>
-            {restart.allowed_by ? (
-              <StateWord tone="acted" icon="check" word={t("required.restart.allowed")} />
-            ) : (
-              <StateWord tone="never_read" icon="warning" word={t("required.restart")} />
-            )}
-            <span className="mono">{restart.path}</span>
-            <span className="why muted">
-              {t(restart.allowed_by ? "required.restart.by" : "required.restart.about", {
-                scan: restart.scan,
-                rule: restart.allowed_by,
-              })}
-            </span>
+        {restarts.map(({ path, scan, allowed_by: rule }) => (
+          <li key={path}>
+            <StateWord tone="acted" icon="check" word={t("required.restart.allowed")} />
+            <span className="mono">{path}</span>
+            <span className="why muted">{t("required.restart.by", { scan, rule })}</span>
           </li>
         ))}
         {required.map((each) => (

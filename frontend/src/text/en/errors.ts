@@ -301,6 +301,7 @@ export const errors = {
   "reaction.scans": "first change after {scans} scans",
   "reaction.swept": "found by a sweep; the error was not raised here.",
   "reaction.swept.word": "sweep",
+  "reaction.unmet": "{grade}, {unmet}",
   "reaction.unreached": "Would read it, not executed",
   "reaction.unreached.on": "{first} and {count} more",
   "reaction.what.code": "the code",
@@ -331,7 +332,8 @@ export const errors = {
   "required.reason.stopped": "The error is fatal: the PLC stops, as the model says.",
   "required.restart": "Unexpected restart",
   "required.restart.about":
-    "The error had switched it off. After the recovery it went on again by itself in scan {scan}, and no requirement allows that.",
+    "The error had switched it off. It went on again by itself in scan {scan} after the recovery, which is done in a trial run if nobody did it in the window. What is forced is forced there, too. If it may go on again, write “{name} may restart” under Required reactions.",
+  "required.restart.rule": "Restart after the recovery: Scanbench's own check",
   "required.restart.allowed": "Restarted",
   "required.restart.by": "in scan {scan} after the recovery, as “{rule}” allows it",
   "required.scan": "scan {scan}",

@@ -339,6 +339,18 @@ test("an error that only a sweep raised says so, beside the count of those that 
   expect(textOf(line(BASIC.name))).not.toContain(t("errors.status.never"));
 });
 
+test("a restart in a project that requires nothing is not told as required by it, and the grade is told", async () => {
+  const found = { ...REACTED, required: [], restarts: [{ path: "fan", scan: 1, allowed_by: "" }] };
+  const { server, user } = await openSimulator((server) =>
+    server.on("GET", "/instances/*/errors/*/reaction", () => found),
+  );
+  server.say({ type: "errors", whole: false, rows: [row(BASIC, { ...RAISED, reaction: verdict("acted", 1, 1) })] });
+  await user.click(line(BASIC.name));
+  await within(details()).findByRole("region", { name: t("required.restart.rule") });
+  expect(within(details()).queryByRole("region", { name: t("required.label") })).toBeNull();
+  expect(textOf(within(details()).getByRole("region", { name: t("reaction.label") }))).toContain(t("verdict.acted"));
+});
+
 test("a ticked error that is not fitted any more is not raised with the others", async () => {
   const { server, user } = await openSimulator();
   await user.click(tick(BASIC.name));
@@ -350,11 +362,11 @@ test("a ticked error that is not fitted any more is not raised with the others",
   expect(server.sentOf("generate")).toMatchObject([{ errors: [{ id: BATTERY.id }] }]);
 });
 
-test("an error to which the program does not react as required is not shown as acted", async () => {
+test("an error to which the program does not react as required shows its grade and the findings", async () => {
   const { server } = await openSimulator();
   server.say({ type: "errors", whole: false, rows: [row(BASIC, { swept: verdict("acted", 1, 2) })] });
-  await shows(BASIC.name, t("sweep.unmet", { count: 2 }));
-  expect(textOf(line(BASIC.name))).not.toContain(t("verdict.acted"));
+  await shows(BASIC.name, `${t("verdict.acted")}, ${t("sweep.unmet", { count: 2 })}`);
+  expect(line(BASIC.name).querySelector(".st.unmet")).not.toBeNull();
 });
 
 test("the reaction is shown in the tree and in words; its readers are links; a finding says what to do next", async () => {
@@ -430,13 +442,14 @@ test("what the project requires is beside the reaction: passed, failed and why, 
   await user.click(line(BASIC.name));
   const list = await within(details()).findByRole("region", { name: t("required.label") });
   const lines = within(list).getAllByRole("listitem").map(textOf);
-  expect(lines[0]).toContain(t("required.restart.about", { scan: 1 }));
-  expect(lines[1]).toContain(t("required.passed"));
-  expect(lines[1]).toContain("scan 3: motor = FALSE");
-  expect(lines[2]).toContain(t("required.failed"));
-  expect(lines[2]).toContain("scan 3 after the recovery: lamp = TRUE");
-  expect(lines[3]).toContain(t("required.not_checked"));
-  expect(lines[3]).toContain("There is no `lmp`.");
+  expect(lines[0]).toContain(t("required.passed"));
+  expect(lines[0]).toContain("scan 3: motor = FALSE");
+  expect(lines[1]).toContain(t("required.failed"));
+  expect(lines[1]).toContain("scan 3 after the recovery: lamp = TRUE");
+  expect(lines[2]).toContain(t("required.not_checked"));
+  expect(lines[2]).toContain("There is no `lmp`.");
+  const own = within(details()).getByRole("region", { name: t("required.restart.rule") });
+  expect(textOf(own)).toContain(t("required.restart.about", { scan: 1, name: "fan" }));
   await user.click(within(list).getByRole("button", { name: "lamp" }));
   expect(places).toEqual(["file required.reactions"]);
 });

@@ -22,7 +22,7 @@ export function ReactionView({ error, of, state }: { error: ErrorInfo; of: strin
   return (
     <section className="reaction" aria-label={t("reaction.label")}>
       <p className="row">
-        <ReactionWord reaction={state} />
+        <ReactionWord reaction={reaction ? { ...state, unmet: 0 } : state} />
         <span className="grow muted">
           {state.state === "done" && reaction && sentenceOf(reaction, error.flag)}
           {state.state === "done" && !reaction && (refused ?? t("reaction.loading"))}

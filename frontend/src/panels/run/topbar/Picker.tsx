@@ -38,6 +38,7 @@ export function Picker() {
     <>
       <MenuButton
         label={t("picker.label")}
+        title={[project?.name, instance?.name].filter(Boolean).join(" / ") || t("picker.label")}
         className="picker"
         items={() => (app ? itemsOf(app, project, instance?.id, setAsking) : [])}
         onOpen={() => void refreshApp()}
@@ -84,6 +85,7 @@ function itemsOf(
   const instances = app.instances.map(
     (known): MenuItem => ({
       label: `${known.project.name} / ${known.name}`,
+      end: ` / ${known.name}`,
       hint: known.model,
       checked: known.id === instance,
       onSelect: () => void chooseInstance(known),
