@@ -48,7 +48,7 @@ const GAP = 16;
 const TRACK = 10;
 const MARGIN = 8;
 /** Room for a value beside a name. */
-const VALUE = 58;
+export const VALUE = 58;
 /** From a pin to its text. */
 export const STUB = 14;
 

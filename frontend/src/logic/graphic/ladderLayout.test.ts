@@ -1,14 +1,15 @@
 import { describe, expect, it } from "vitest";
+import { InstanceTypes, type TypeOf } from "./instanceTypes";
 import { layOut } from "./ladderLayout";
 import { readRung } from "./ladderRead";
 import { networksIn } from "./networks";
 import { powerOf } from "./power";
 
-function drawingOf(body: string, width = 800) {
+function drawingOf(body: string, width = 800, typeOf?: TypeOf) {
   const [found] = networksIn(`RUNG\n${body}\nEND_RUNG\n`);
   const rung = found && readRung(found);
   if (rung?.kind !== "rung") throw new Error(body);
-  return layOut(rung.path, width);
+  return layOut(rung.path, width, typeOf);
 }
 
 /** The operands of the coils that power reaches, and of those it is not known for. */
@@ -63,6 +64,21 @@ describe("the drawing of a rung", () => {
   it("becomes wider than the window where it has to", () => {
     const body = Array.from({ length: 20 }, (_, index) => `[contact${index}]`).join(" ");
     expect(drawingOf(`${body} (q)`, 400).width).toBeGreaterThan(1600);
+  });
+
+  it("has the type of an instance in its box, and room for how far it is", () => {
+    const types = new InstanceTypes(
+      "VAR a : BOOL; jam, other : TON; parts : CTU; END_VAR\nVAR jam : Elsewhere; END_VAR",
+    );
+    const rung = "[a] jam(IN := ~, PT := long, ET => seen).Q MAX(IN1 := a)";
+    const [, jam, max] = drawingOf(rung, 800, types.at(40)).elements.map(({ frame }) => frame);
+    expect(jam).toMatchObject({ type: "TON", callee: "jam", progress: "jam.ET" });
+    expect(max).toMatchObject({ type: "MAX", callee: "MAX", progress: "" });
+    expect(types.at(40)("parts")).toBe("CTU");
+    expect(types.at(200)("jam")).toBe("Elsewhere");
+    expect(types.at(200)("a")).toBeUndefined();
+    const down = (typeOf?: TypeOf) => drawingOf(rung, 800, typeOf).elements[1]?.down ?? 0;
+    expect(down(types.at(40))).toBeGreaterThan(down());
   });
 
   it("moves nothing above when a branch is added below", () => {

@@ -4,6 +4,8 @@
  */
 
 import { writeArgument } from "./args";
+import { isVariable, VALUE } from "./diagramLayout";
+import { progressOf, type TypeOf, UNKNOWN } from "./instanceTypes";
 import { widthOf } from "./measure";
 import type { PowerNode } from "./power";
 import type { Argument, Box, Element, Parallel, Path, Span } from "./tree";
@@ -36,6 +38,11 @@ export interface Drawn {
 }
 
 export interface Frame {
+  /** What is called: the type of an instance, which is above the frame; else the same as `callee`. */
+  type: string;
+  callee: string;
+  /** The variable whose value is shown below; empty where there is none. */
+  progress: string;
   x: number;
   y: number;
   width: number;
@@ -90,6 +97,8 @@ const LEAD = 16;
 const ROW = 20;
 const GAP = 8;
 const EMPTY = 40;
+/** How far a timer or counter is, below its frame. */
+const PROGRESS = 14;
 
 interface Size {
   width: number;
@@ -104,11 +113,11 @@ export const isEnd = (element: Element | undefined): boolean =>
     (element.kind === "parallel" && element.branches.some((branch) => isEnd(branch.at(-1)))));
 
 /** The drawing in at least this width. */
-export function layOut(path: Path, width: number): Drawing {
-  const size = sizeOfPath(path);
+export function layOut(path: Path, width: number, typeOf: TypeOf = UNKNOWN): Drawing {
+  const size = sizeOfPath(path, typeOf);
   const whole = Math.max(width, Math.ceil(size.width) + LEFT + RIGHT + 2 * LEAD);
   const y = size.up + 2;
-  const drawer = new Drawer(path);
+  const drawer = new Drawer(path, typeOf);
   const end = drawer.draw(LEFT, whole - RIGHT, y);
   const bottom = y + size.down;
   return {
@@ -131,10 +140,10 @@ function tailOf(path: Path): number {
   return from;
 }
 
-function sizeOfPath(path: Path): Size {
+function sizeOfPath(path: Path, typeOf: TypeOf): Size {
   let [width, up, down] = [path.length === 0 ? EMPTY : 0, 10, 10];
   path.forEach((element, index) => {
-    const size = sizeOf(element, index === path.length - 1);
+    const size = sizeOf(element, index === path.length - 1, typeOf);
     width += size.width;
     up = Math.max(up, size.up);
     down = Math.max(down, size.down);
@@ -142,18 +151,18 @@ function sizeOfPath(path: Path): Size {
   return { width, up, down };
 }
 
-function sizeOf(element: Element, last: boolean): Size {
+function sizeOf(element: Element, last: boolean, typeOf: TypeOf): Size {
   switch (element.kind) {
     case "contact":
     case "coil":
       return { width: Math.max(LEAST, widthOf(element.operand) + 24), up: UP, down: DOWN };
     case "parallel": {
-      const { up, down, inner } = branchesOf(element);
+      const { up, down, inner } = branchesOf(element, typeOf);
       return { width: inner + LEAD + (last && isEnd(element) ? 0 : LEAD), up, down };
     }
     case "box": {
-      const { before, inner, trail, rows } = boxOf(element);
-      return { width: before + inner + trail, up: 52, down: (rows - 1) * ROW + 16 };
+      const { before, inner, trail, rows, progress } = boxOf(element, typeOf);
+      return { width: before + inner + trail, up: 52, down: (rows - 1) * ROW + 16 + (progress === "" ? 0 : PROGRESS) };
     }
     case "send":
     case "receive":
@@ -164,8 +173,8 @@ function sizeOf(element: Element, last: boolean): Size {
 }
 
 /** The branches of a parallel: their heights below its first one, and the width of the widest. */
-function branchesOf({ branches }: Parallel) {
-  const sizes = branches.map(sizeOfPath);
+function branchesOf({ branches }: Parallel, typeOf: TypeOf) {
+  const sizes = branches.map((branch) => sizeOfPath(branch, typeOf));
   const rows: number[] = [];
   let down = 0;
   sizes.forEach((size, index) => {
@@ -179,7 +188,7 @@ function branchesOf({ branches }: Parallel) {
 const isPower = ({ out, value, branch }: Argument) => !out && branch === null && value === "~";
 
 /** The pins of a box and how wide its parts are: texts before it, its frame, texts after it. */
-function boxOf(box: Box) {
+function boxOf(box: Box, typeOf: TypeOf) {
   const inputs = box.args.filter(({ out }) => !out);
   const named = box.args.filter(({ out }) => out);
   const power = inputs.find(isPower);
@@ -197,14 +206,20 @@ function boxOf(box: Box) {
     power: isPower(each),
   }));
   const widest = (texts: readonly string[]) => Math.max(0, ...texts.map(widthOf));
+  const type = typeOf(box.callee);
+  const output = progressOf(type);
+  const progress = output ? `${box.callee}.${output}` : "";
+  const withValue = (text: string) => widthOf(text) + (text !== "" && isVariable(text) ? VALUE : 0);
   const inner = Math.max(
     widthOf(box.callee) + 24,
+    widthOf(type ?? "") + 24,
     widest(left.map(({ name }) => name)) + widest(outs.map(({ name }) => name)) + 34,
   );
-  const before = widest(left.map(({ text }) => text)) + 22;
-  const trail = Math.max(18, widest(outs.map(({ text }) => text)) + 22);
+  const before = Math.max(0, ...left.map(({ text }) => withValue(text))) + 22;
+  const trail = Math.max(18, ...outs.map(({ text }) => withValue(text) + 22));
   const shifted = power === undefined && box.output === null ? 1 : 0;
-  return { before, inner, trail, left, outs, shifted, rows: Math.max(1, left.length + shifted, outs.length + shifted) };
+  const rows = Math.max(1, left.length + shifted, outs.length + shifted);
+  return { before, inner, trail, left, outs, shifted, rows, type: type ?? box.callee, progress };
 }
 
 const textOf = (arg: Argument) => writeArgument({ ...arg, name: null });
@@ -216,7 +231,10 @@ class Drawer {
   readonly sends = new Map<string, number[]>();
   readonly gaps: Gap[] = [];
 
-  constructor(private readonly path: Path) {}
+  constructor(
+    private readonly path: Path,
+    private readonly typeOf: TypeOf,
+  ) {}
 
   draw(left: number, right: number, y: number): number {
     return this.flush(this.path, [], left, right, y, 0);
@@ -227,7 +245,7 @@ class Drawer {
     const tail = tailOf(path);
     const main = this.run(path.slice(0, tail), place, 0, left, y, node);
     const rest = path.slice(tail);
-    const start = right - sizeOfPath(rest).width - (rest.length === 0 ? -EMPTY : 0);
+    const start = right - sizeOfPath(rest, this.typeOf).width - (rest.length === 0 ? -EMPTY : 0);
     this.wire(main.x, start, y, main.node);
     const end = this.run(rest, place, tail, start, y, main.node);
     if (end.x < right) this.wire(end.x, right, y, end.node);
@@ -251,7 +269,7 @@ class Drawer {
     { x, node }: { x: number; node: number },
     y: number,
   ) {
-    const { width, up, down } = sizeOf(element, false);
+    const { width, up, down } = sizeOf(element, false, this.typeOf);
     const after = this.after(element, node);
     const frame = element.kind === "box" ? this.box(element, x, y, width, node, after) : null;
     if (element.kind !== "box") {
@@ -287,8 +305,16 @@ class Drawer {
   }
 
   private box(box: Box, x: number, y: number, width: number, node: number, after: number): Frame {
-    const { before, inner, left, outs, shifted, rows } = boxOf(box);
-    const frame = { x: x + before, y: y - 30, width: inner, height: 30 + (rows - 1) * ROW + 14 };
+    const { before, inner, left, outs, shifted, rows, type, progress } = boxOf(box, this.typeOf);
+    const frame = {
+      type,
+      callee: box.callee,
+      progress,
+      x: x + before,
+      y: y - 30,
+      width: inner,
+      height: 30 + (rows - 1) * ROW + 14,
+    };
     const pinY = (index: number) => y + (index + shifted) * ROW;
     this.wire(x, frame.x, y, node);
     this.wire(frame.x + inner, x + width, y, after);
@@ -309,7 +335,7 @@ class Drawer {
     y: number,
     last: boolean,
   ) {
-    const { sizes, rows, inner } = branchesOf(element);
+    const { sizes, rows, inner } = branchesOf(element, this.typeOf);
     const open = last && isEnd(element);
     const [left, right] = [x + LEAD, x + LEAD + inner];
     this.wire(x, left, y, node);

@@ -7,6 +7,7 @@ import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
 import { pinsOf } from "./diagramPins";
 import { readDiagram } from "./diagramRead";
 import { type Heading, headingOf } from "./heading";
+import { InstanceTypes, type TypeOf, UNKNOWN } from "./instanceTypes";
 import { type Drawing, layOut, type Place } from "./ladderLayout";
 import { readRung } from "./ladderRead";
 import { type Found, networksIn } from "./networks";
@@ -23,6 +24,8 @@ interface Drawn<Kind, Picture> {
 export interface DrawnRung extends Drawn<"rung", Drawing> {
   /** Null where the text cannot be read. */
   path: Path | null;
+  /** Of the instances that its boxes call. */
+  typeOf: TypeOf;
   /** Comments are between its elements, which the drawing does not have: only its text can be edited. */
   comments: boolean;
 }
@@ -145,10 +148,14 @@ export class Sheet {
     const last = this.drawn;
     this.width = width;
     this.known = new Map();
+    const types = new InstanceTypes(text);
     this.drawn = partsIn(text).map((found, index) => {
-      const same = before.get(found.text);
-      const part = same ? { ...(wider ? inWidth(same, width) : same), found } : draw(found, width, last[index]);
-      this.known.set(found.text, part);
+      const key = found.kind === "rung" ? `${types.key}\n${found.text}` : found.text;
+      const same = before.get(key);
+      const part = same
+        ? { ...(wider ? inWidth(same, width) : same), found }
+        : draw(found, width, last[index], types.at(found.from));
+      this.known.set(key, part);
       return part;
     });
     return this.drawn;
@@ -157,10 +164,10 @@ export class Sheet {
 
 /** The same in a different width: a rung reaches from rail to rail, others do not ask for it. */
 function inWidth(part: DrawnPart, width: number): DrawnPart {
-  return part.kind === "rung" && part.path ? { ...part, drawing: layOut(part.path, width) } : part;
+  return part.kind === "rung" && part.path ? { ...part, drawing: layOut(part.path, width, part.typeOf) } : part;
 }
 
-function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPart {
+function draw(found: Found, width: number, last: DrawnPart | undefined, typeOf: TypeOf): DrawnPart {
   if (found.kind === "chart") {
     const read = readChart(found);
     if (read.kind === "chart")
@@ -177,17 +184,18 @@ function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPa
   const read = found.closed ? readRung(found) : null;
   if (read?.kind === "rung")
     return {
-      ...{ kind: "rung", found, readable: true, path: read.path, comments: read.comments },
-      drawing: layOut(read.path, width),
+      ...{ kind: "rung", found, readable: true, path: read.path, comments: read.comments, typeOf },
+      drawing: layOut(read.path, width, typeOf),
     };
   const drawing = last?.kind === "rung" ? last.drawing : null;
-  return { kind: "rung", found, readable: false, path: null, comments: false, drawing };
+  return { kind: "rung", found, readable: false, path: null, comments: false, typeOf, drawing };
 }
 
 /** A part with a different text, as it is drawn while that is not written yet. */
 export function drawnWith(part: DrawnPart, text: string, width: number): DrawnPart {
   const [network] = part.kind === "chart" ? [] : networksIn(text);
   const body = network?.body ?? { at: 0, end: text.length };
-  const drawn = draw({ ...part.found, text, body, closed: network?.closed ?? true }, width, part);
+  const typeOf = part.kind === "rung" ? part.typeOf : UNKNOWN;
+  const drawn = draw({ ...part.found, text, body, closed: network?.closed ?? true }, width, part, typeOf);
   return { ...drawn, found: part.found };
 }

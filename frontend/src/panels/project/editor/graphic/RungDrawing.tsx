@@ -1,4 +1,5 @@
 import { memo } from "react";
+import { isVariable } from "../../../../logic/graphic/diagramLayout";
 import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayout";
 import { widthOf } from "../../../../logic/graphic/measure";
 import { t } from "../../../../text";
@@ -56,7 +57,7 @@ function Element({ drawn, ...marked }: { drawn: Drawn } & Marked) {
       box={{ x: x + 1, y: y - up - 4, width: width - 2, height: up + down + 4 }}
       dot={{ x: x + 6, y: y - (frame ? up : 9) }}
     >
-      {element.kind === "box" && frame ? <BoxDrawing frame={frame} callee={element.callee} /> : <Shape drawn={drawn} />}
+      {element.kind === "box" && frame ? <BoxDrawing frame={frame} /> : <Shape drawn={drawn} />}
     </SpotGroup>
   );
 }
@@ -141,14 +142,22 @@ function Name({ text, x, y }: { text: string; x: number; y: number }) {
   );
 }
 
-function BoxDrawing({ frame, callee }: { frame: Frame; callee: string }) {
-  const { x, y, width, height, inputs, outputs } = frame;
+function BoxDrawing({ frame }: { frame: Frame }) {
+  const { type, callee, progress, x, y, width, height, inputs, outputs } = frame;
   return (
     <>
       <rect className="boxr" x={sharp(x)} y={sharp(y)} width={width} height={height} />
       <text className="ty" x={x + width / 2} y={y + 16}>
-        {callee}
+        {type}
       </text>
+      {type !== callee && (
+        <text className="nm" x={x + width / 2} y={y - 6}>
+          {callee}
+        </text>
+      )}
+      {progress !== "" && (
+        <text className="vl m" x={x + width / 2} y={y + height + 13} data-value={progress} data-named="" />
+      )}
       {inputs.map((pin) => (
         <g key={`i${pin.y}`}>
           {!pin.power && <path className="wire" d={`M${x - 8} ${sharp(pin.y)}H${x}`} />}
@@ -156,7 +165,7 @@ function BoxDrawing({ frame, callee }: { frame: Frame; callee: string }) {
             {pin.name}
           </text>
           <text className="nm r" x={x - 13} y={pin.y + 4}>
-            {pin.text}
+            <PinText text={pin.text} />
           </text>
         </g>
       ))}
@@ -167,10 +176,18 @@ function BoxDrawing({ frame, callee }: { frame: Frame; callee: string }) {
             {pin.name}
           </text>
           <text className="nm l" x={x + width + 13} y={pin.y + 4}>
-            {pin.text}
+            <PinText text={pin.text} />
           </text>
         </g>
       ))}
     </>
   );
 }
+
+/** A variable with its value, or a literal or an expression. */
+const PinText = ({ text }: { text: string }) => (
+  <>
+    {text}
+    {isVariable(text) && <tspan className="vl" data-value={text} />}
+  </>
+);

@@ -1,6 +1,7 @@
 /** Values and power of a rung, written to its elements directly. */
 
 import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../logic/graphic/condition";
+import { isVariable } from "../../../../logic/graphic/diagramLayout";
 import { type PartFlow, seenPower, valueIn } from "../../../../logic/graphic/flow";
 import type { Drawing } from "../../../../logic/graphic/ladderLayout";
 import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
@@ -17,7 +18,12 @@ function variablesIn({ nodes, elements }: Drawing): Set<string> {
     if (node.kind === "contact") for (const { name } of variablesOf(conditionOf(node.contact.operand))) named.add(name);
     if (node.kind === "box" && node.box.output !== null) named.add(`${node.box.callee}.${node.box.output}`);
   }
-  for (const { element } of elements) if (element.kind === "coil") named.add(element.operand);
+  for (const { element, frame } of elements) {
+    if (element.kind === "coil") named.add(element.operand);
+    if (!frame) continue;
+    for (const { text } of [...frame.inputs, ...frame.outputs]) if (isVariable(text)) named.add(text);
+    if (frame.progress !== "") named.add(frame.progress);
+  }
   return named;
 }
 
@@ -37,7 +43,21 @@ export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): Shown 
     // Without an instance nothing has a value, and no rail has power.
     else if (seenAsNow(pou.name) === undefined) clear(svg);
     else paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced);
+    if (flow || seenAsNow(pou.name) !== undefined) paintValues(svg, text, flow);
   });
+}
+
+/** Values beside the pins of boxes, and how far timers and counters are. */
+function paintValues(svg: SVGSVGElement, text: Values["text"], flow: PartFlow | null): void {
+  for (const place of svg.querySelectorAll<SVGElement>("[data-value]")) {
+    const variable = place.dataset.value ?? "";
+    const key = place.closest<SVGElement>("[data-element]")?.dataset.element;
+    const seen = key === undefined ? undefined : flow?.at.get(key);
+    const value = valueIn(seen, variable) ?? text(variable);
+    const name = place.dataset.named === undefined ? "" : variable.slice(variable.lastIndexOf(".") + 1);
+    const shown = value === null ? "" : `${name} ${value}`;
+    if (place.textContent !== shown) place.textContent = shown;
+  }
 }
 
 function paintSeen(
