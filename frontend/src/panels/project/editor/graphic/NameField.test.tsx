@@ -4,14 +4,14 @@ import { expect, test } from "vitest";
 import { entered } from "../../../../store/project/entering";
 import { NameField } from "./NameField";
 
-const NAMING = { value: "start", offers: "bool", taken: () => null } as const;
+const NAMING = { offers: "bool", taken: () => null } as const;
 
-function openField(accepted: boolean, moves = false) {
+function openField(accepted: boolean, moves = false, value = "start") {
   const done: string[] = [];
   render(
     <>
       <NameField
-        naming={NAMING}
+        naming={{ ...NAMING, value }}
         spot={{ x: 0, y: 0, width: 100 }}
         label="name"
         names={() => Promise.resolve([])}
@@ -62,4 +62,15 @@ test("what Enter takes is taken once, although the drawing takes the focus meanw
   await user.type(field, "stop{Enter}");
   await expect(entered()).resolves.toBe(true);
   expect(done).toEqual(["take stop"]);
+});
+
+test.each([
+  ["/stop", "/full"],
+  ["R lamp", "R full"],
+])("Ctrl+A and a new name leave %s what it is", async (value, becomes) => {
+  const { user, done, field } = openField(true, false, value);
+  await user.keyboard("{Control>}a{/Control}full{Enter}");
+  await expect(entered()).resolves.toBe(true);
+  expect(done).toEqual([`take ${becomes}`]);
+  expect(field).toBeDefined();
 });

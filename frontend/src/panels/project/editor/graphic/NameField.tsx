@@ -46,15 +46,20 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   // biome-ignore lint/correctness/useExhaustiveDependencies: once, when it opens
   useEffect(() => {
     input.current?.focus();
-    const mode = naming.offers === "bool" ? (MODE.exec(naming.value)?.[0].length ?? 0) : 0;
-    const fresh = mode === naming.value.length;
-    // A new name leaves the mode as it is.
-    input.current?.setSelectionRange(mode, naming.value.length);
+    const fresh = modeIn(naming.value) === naming.value.length;
+    select(naming.value);
     all.current = names();
     // Who has typed nothing yet sees what there is.
     if (fresh && naming.offers !== "none")
       void all.current.then((found) => input.current?.value === naming.value && offering.show(found.slice(0, MOST)));
   }, []);
+
+  const modeIn = (value: string) => (naming.offers === "bool" ? (MODE.exec(value)?.[0].length ?? 0) : 0);
+
+  /** A new name leaves the mode as it is: a closed contact is one by any name. */
+  function select(value: string): void {
+    input.current?.setSelectionRange(modeIn(value), value.length);
+  }
 
   async function take(wanted: string, onwards: boolean): Promise<void> {
     if (taken.current) return;
@@ -90,9 +95,10 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     offering.ask(typed);
   }
 
-  function onKey({ key, ctrlKey }: KeyboardEvent): boolean {
+  function onKey({ key, ctrlKey, metaKey }: KeyboardEvent): boolean {
     if (key === "Escape") giveUp();
     else if (waiting) return true;
+    else if ((ctrlKey || metaKey) && key.toLowerCase() === "a") select(text);
     // A contact or coil of a name that is new: it is declared.
     else if (ctrlKey && key === "Enter" && naming.offers === "bool") void take(`${text} : BOOL`, false);
     else if (key === "Enter" || key === "Tab") void take(text, key === "Tab");
