@@ -348,7 +348,7 @@ def _tell_clients(unit: _Unit) -> None:
     """Everybody at the PLC sees who is connected."""
     desks = (*(running.desk for running in unit.servers.values()), unit.plant.desk, unit.mqtt.desk)
     names = (client.name for desk in desks if desk is not None for client in desk.clients)
-    unit.session.tools = tuple(map(User, names))
+    unit.session.tools = tuple(User(name, client=True) for name in names)
     unit.session.tell(UsersChanged(unit.session.users))
 
 

@@ -76,7 +76,6 @@ class Mqtt:
             SessionPlc(self._session), wanted, self._secrets, self.desk, name,
             lambda text: self._session.log.add(name, text, "system"),
         )  # fmt: skip
-        self.desk.arrive(name)
         self._task = asyncio.get_running_loop().create_task(_run(self._publisher, name))
 
     async def end(self) -> None:

@@ -72,7 +72,6 @@ class Plant:
             self._trouble = error.message
             return
         self._client, self.desk = client, desk
-        desk.arrive(name)
         self._task = asyncio.get_running_loop().create_task(_run(client, name))
 
     def break_line(self, fault: LineFault) -> None:

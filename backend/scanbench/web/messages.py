@@ -228,6 +228,8 @@ class User(Wire):
 
     name: str
     initials: str
+    client: bool = False
+    """A client of a protocol, not a person."""
 
 
 class Instance(Wire):

@@ -32,7 +32,7 @@ from scanbench.wire.symbols import WatchItem
 
 def user(who: User) -> wire.User:
     """A user with initials."""
-    return wire.User(name=who.name, initials=who.initials)
+    return wire.User(name=who.name, initials=who.initials, client=who.client)
 
 
 def project(row: ProjectRow) -> wire.Project:

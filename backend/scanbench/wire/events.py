@@ -72,9 +72,11 @@ class BuildOutcome:
 
 @dataclass(frozen=True, slots=True)
 class User:
-    """Somebody at a browser."""
+    """Somebody at a browser, or a client of a protocol."""
 
     name: str
+    client: bool = False
+    """A program that speaks a protocol: nobody who sees others."""
 
     @property
     def initials(self) -> str:

@@ -81,13 +81,15 @@ def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_withou
         assert not bit(3), "what inputs are to do was: 0"
         until(lambda: words(200) == [0])
         assert seen(server, instance)["trouble"] != ""
+        name = f"Modbus plant 127.0.0.1:{plant.port}"
+        with server.browser(instance) as browser:
+            assert name not in [each["name"] for each in browser.hello["users"]], "it does not answer, so it is not there"
 
         plant.set(INPUT, 2, 22)
         plant.start()
         until(lambda: words(100) == [22] and plant.get(HOLDING, 7) == [44])
-        name = f"Modbus plant 127.0.0.1:{plant.port}"
         with server.browser(instance) as browser:
-            assert name in [each["name"] for each in browser.hello["users"]]
+            assert [each["client"] for each in browser.hello["users"] if each["name"] == name] == [True]
         log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
         told_of = [each["text"] for each in log if each["author"] == name and "the plant at" in each["text"]]
         assert ["does not answer" in each for each in told_of] == [False, True, False]

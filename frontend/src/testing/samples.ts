@@ -12,8 +12,8 @@ import type {
   User,
 } from "../wire/types";
 
-export const MIKA: User = { name: "Mika", initials: "M" };
-export const JO: User = { name: "Jo", initials: "J" };
+export const MIKA: User = { name: "Mika", initials: "M", client: false };
+export const JO: User = { name: "Jo", initials: "J", client: false };
 
 const RUNNING: InstanceState = {
   state: "running",

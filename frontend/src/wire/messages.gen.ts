@@ -9571,6 +9571,11 @@ export interface components {
          * @description Somebody who is at a PLC.
          */
         User: {
+            /**
+             * Client
+             * @default false
+             */
+            client: boolean;
             /** Initials */
             initials: string;
             /** Name */

@@ -8,6 +8,7 @@ class User(TypedDict):
 
     name: str
     initials: str
+    client: bool
 
 
 class Project(TypedDict):

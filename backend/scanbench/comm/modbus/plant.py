@@ -111,6 +111,7 @@ class PlantClient:
         self.exchanges += 1
         if not self.answers:
             self.answers = True
+            self._desk.arrive(self._door.author)
             self._tell(f"the plant at {self._wanted.host}:{self._wanted.port} answers")
 
     def _refuse(self) -> None:
@@ -132,6 +133,7 @@ class PlantClient:
         """There is no exchange now: what the PLC gets to know of it."""
         told = f"the plant at {self._wanted.host}:{self._wanted.port} does not answer: {why}"
         if self.answers:
+            self._desk.leave(self._door.author)
             self._tell(told)
         self.answers = False
         off = (

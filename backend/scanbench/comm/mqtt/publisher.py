@@ -78,6 +78,7 @@ class Publisher:
 
     def _lost(self, why: str) -> None:
         if self.connected:
+            self._desk.leave(self._name)
             self._tell(f"nothing is published any more: {why}")
         self.connected, self.trouble = False, why
 
@@ -110,6 +111,7 @@ class Publisher:
         self._births = (self._births + 1) % SEQUENCES
         async with self._client() as client:
             if not self.connected:
+                self._desk.arrive(self._name)
                 self._tell(f"the broker at {wanted.host}:{wanted.port} gets what is published")
             self.connected = True
             try:

@@ -69,7 +69,7 @@ export async function reverseTo(path: string): Promise<void> {
 usePlc.subscribe(({ state: now, you, users }, { state: before }) => {
   const halt = now?.halt;
   if (!halt || halt.file === "" || halt.number === before?.halt?.number) return;
-  const alone = new Set(users.map(({ name }) => name)).size < 2;
+  const alone = new Set(users.flatMap(({ name, client }) => (client ? [] : [name]))).size < 2;
   // In a stepwise verification the Verification panel shows the statement, so the editor does not cover it.
   if ((alone || halt.by === you?.name) && !isStepwise()) openFile(halt.file, lineToGoOn(halt));
 });

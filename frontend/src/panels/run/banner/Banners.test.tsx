@@ -154,11 +154,13 @@ test("a fatal error says how to go on: by the button of the banner where a mode 
 });
 
 test("a guest is asked for a name once somebody else is here, and once only", async () => {
-  const guest = { name: "Guest 3", initials: "G3" };
+  const guest = { name: "Guest 3", initials: "G3", client: false };
   const { server, user } = await openBanners((server) => {
     server.greeting = { you: guest, users: [guest] };
   });
   expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+  server.say({ type: "users", users: [guest, { name: "FINS 127.0.0.1, node 5", initials: "F1", client: true }] });
+  expect(screen.queryByRole("form", { name: t("name.title") }), "a client sees nobody's name").toBeNull();
   server.say({ type: "users", users: [guest, JO] });
   await user.click(await screen.findByRole("button", { name: t("name.stay", { name: "Guest 3" }) }));
   expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();

@@ -8,7 +8,7 @@ import { Icon } from "../../../ui/Icon";
 /** Asks once for a name, when somebody else is here to see it. */
 export function NameBanner() {
   const you = usePlc((plc) => plc.you?.name ?? "");
-  const others = usePlc((plc) => plc.users.some(({ name }) => name !== plc.you?.name));
+  const others = usePlc((plc) => plc.users.some(({ name, client }) => !client && name !== plc.you?.name));
   const [done, setDone] = useState(isNameKept);
   const [name, setName] = useState("");
   if (done || !others || !isGuest(you)) return null;
