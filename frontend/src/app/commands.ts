@@ -21,6 +21,7 @@ import {
 } from "../store/page/prefs";
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
+import { usePlc } from "../store/plc/plc";
 import { returnToLive, saveScenarioNow, stepBack } from "../store/plc/timeline";
 import { openBreadcrumbs } from "../store/project/breadcrumbs";
 import { askBuildMessage } from "../store/project/buildMessage";
@@ -31,6 +32,8 @@ import { goToProblem } from "../store/project/problemKeys";
 import { askSearch } from "../store/project/search";
 import { showsRan } from "../store/project/shownProgram";
 import { openVersions } from "../store/project/versions";
+import { showCampaigns } from "../store/verify/campaigns";
+import { showWhatIf } from "../store/verify/whatif";
 import { languageNames, languages, type TextKey, t } from "../text";
 import { helpHere } from "./helpHere";
 import { cyclePanes } from "./panes";
@@ -105,6 +108,8 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.pane.before", keys: "Shift+F6", run: () => cyclePanes(-1) },
     { label: "command.instances", run: () => showInstances(true) },
     { label: "command.sweeps", run: showSweeps },
+    { label: "command.campaigns", run: showCampaigns },
+    { label: "command.whatif", run: () => showWhatIf(usePlc.getState().state?.scan ?? 0) },
     { label: "command.usererrors", run: () => openPage("usererrors") },
   ],
 };

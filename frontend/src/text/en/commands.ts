@@ -24,6 +24,8 @@ export const commands = {
   "command.run": "Continue or pause",
   "command.save": "Save the file",
   "command.search": "Search in all files",
+  "command.campaigns": "Show campaigns of random disturbances",
+  "command.whatif": "What if…",
   "command.sweeps": "Show error sweeps",
   "command.tocaret": "Run to the caret",
   "command.usererrors": "Edit user-defined errors",

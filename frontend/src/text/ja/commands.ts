@@ -24,6 +24,8 @@ export const commands = {
   "command.run": "続行または一時停止",
   "command.save": "ファイルを保存",
   "command.search": "すべてのファイルを検索",
+  "command.campaigns": "ランダムな外乱のキャンペーンを表示",
+  "command.whatif": "もしも…",
   "command.sweeps": "異常スイープを表示",
   "command.tocaret": "カーソル位置まで実行",
   "command.usererrors": "ユーザー定義異常を編集",
