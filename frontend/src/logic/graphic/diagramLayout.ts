@@ -5,7 +5,7 @@
 
 import { type DiagramInput, type DiagramItem, type DiagramOutput, NOTHING } from "./diagram";
 import type { Place } from "./ladderLayout";
-import { widthOf } from "./measure";
+import { isVariable, VALUE, widthOf } from "./measure";
 
 export interface DiagramPinDrawn<Pin> {
   pin: Pin;
@@ -47,13 +47,8 @@ const FIRST = 30;
 const GAP = 16;
 const TRACK = 10;
 const MARGIN = 8;
-/** Room for a value beside a name. */
-export const VALUE = 58;
 /** From a pin to its text. */
 export const STUB = 14;
-
-const VARIABLE = /^[\p{L}_%][\p{L}\p{N}_.]*(?:\[[\p{N}\s,-]+\][\p{L}\p{N}_.]*)*$/u;
-export const isVariable = (text: string) => VARIABLE.test(text) && !/^(?:TRUE|FALSE)$/i.test(text);
 
 const LONGEST = 40;
 export const shortPin = (text: string) => (text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text);

@@ -5,7 +5,7 @@
 
 import { compared, valueBy } from "./condition";
 import type { DiagramItem, DiagramPin } from "./diagram";
-import { isVariable } from "./diagramLayout";
+import { isVariable } from "./measure";
 import type { Power } from "./power";
 
 type Read = (variable: string) => string | null;

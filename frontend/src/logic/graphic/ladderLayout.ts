@@ -4,9 +4,8 @@
  */
 
 import { writeArgument } from "./args";
-import { isVariable, VALUE } from "./diagramLayout";
 import { progressOf, type TypeOf, UNKNOWN } from "./instanceTypes";
-import { widthOf } from "./measure";
+import { isVariable, VALUE, widthOf } from "./measure";
 import type { PowerNode } from "./power";
 import type { Argument, Box, Element, Parallel, Path, Span } from "./tree";
 

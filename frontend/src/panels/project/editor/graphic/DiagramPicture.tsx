@@ -4,11 +4,11 @@ import {
   type DiagramDrawing,
   type DiagramDrawn,
   type DiagramPinDrawn,
-  isVariable,
   STUB,
   shortPin,
 } from "../../../../logic/graphic/diagramLayout";
 import { type PinSpot, pinsOf } from "../../../../logic/graphic/diagramPins";
+import { isVariable } from "../../../../logic/graphic/measure";
 import { t } from "../../../../text";
 import { nameOfItem, nameOfPin } from "./names";
 import { apartAt, isChosen, type Marked, SpotGroup, sharp, wrongAt } from "./SpotGroup";

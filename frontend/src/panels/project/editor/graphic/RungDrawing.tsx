@@ -1,7 +1,6 @@
 import { memo } from "react";
-import { isVariable } from "../../../../logic/graphic/diagramLayout";
 import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayout";
-import { widthOf } from "../../../../logic/graphic/measure";
+import { isVariable, widthOf } from "../../../../logic/graphic/measure";
 import { t } from "../../../../text";
 import { nameOf } from "./names";
 import { apartAt, type Marked, SpotGroup, sharp } from "./SpotGroup";

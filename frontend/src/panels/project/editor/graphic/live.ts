@@ -1,9 +1,9 @@
 /** Values and power of a rung, written to its elements directly. */
 
 import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../logic/graphic/condition";
-import { isVariable } from "../../../../logic/graphic/diagramLayout";
 import { type PartFlow, seenPower, valueIn } from "../../../../logic/graphic/flow";
 import type { Drawing } from "../../../../logic/graphic/ladderLayout";
+import { isVariable } from "../../../../logic/graphic/measure";
 import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
 import { seenAsNow } from "../../../../store/debug/seenAs";
 import { t } from "../../../../text";
