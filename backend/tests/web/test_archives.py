@@ -96,7 +96,13 @@ def test_the_policies_of_subranges_are_read_and_written_beside_the_dialect(serve
     assert server.http.get(f"{at}/subranges").json() == wanted
     assert server.http.get(f"{at}/dialect").json() == {"dialect": "codesys"}
     assert server.http.post(f"{at}/check", json={"files": {}}).json()["problems"] == []
-    for wrong in ({"nope": "trap"}, {"Main.z": "trap"}, {"no name": "trap"}, {"Main.x": "trap", "MAIN.X": "off"}, {"*": "explode"}):
+    for wrong in (
+        {"nope": "trap"},
+        {"Main.z": "trap"},
+        {"no name": "trap"},
+        {"Main.x": "trap", "MAIN.X": "off"},
+        {"*": "explode"},
+    ):
         refused = server.http.put(f"{at}/subranges", json={"policies": wrong})
         assert refused.status_code == 422
         assert refused.json()["message"]

@@ -83,7 +83,9 @@ def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_withou
         assert seen(server, instance)["trouble"] != ""
         name = f"Modbus plant 127.0.0.1:{plant.port}"
         with server.browser(instance) as browser:
-            assert name not in [each["name"] for each in browser.hello["users"]], "it does not answer, so it is not there"
+            assert name not in [each["name"] for each in browser.hello["users"]], (
+                "it does not answer, so it is not there"
+            )
 
         plant.set(INPUT, 2, 22)
         plant.start()
