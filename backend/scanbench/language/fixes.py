@@ -85,12 +85,12 @@ def _wanted(reading: Reading, file: str, around: Around, name: str, at: int) -> 
     assigned = re.search(rf"(?:^|;|THEN|ELSE|DO|:)\s*{name}\s*:=\s*([^;]+);", line, re.IGNORECASE)
     target = re.search(rf"([^\W\d][\w.]*(?:\[[^\]]*\])?)\s*:=\s*{name}\s*;", line, re.IGNORECASE)
     found = assigned or target
-    if found is None and (argument := _argument(text, name, at)) is None:
+    written: str | None = found.group(1) if found is not None else _argument(text, name, at)
+    if written is None:
         condition = re.search(rf"\b(IF|ELSIF|WHILE|UNTIL|AND|OR|NOT)\s+{name}\b", line, re.IGNORECASE)
         # an index of an array follows a name
         drawn = re.search(rf"(?:^|[^\w\s])\s*{_element(name)}", line, re.IGNORECASE)
         return "BOOL" if condition or drawn or _in_rung(text, name, at) else "INT"
-    written = found.group(1) if found is not None else argument
     body, node = reading.body(around), parsed(written)
     if body is None or node is None:
         return "INT"

@@ -37,6 +37,9 @@ LARGEST = 64 << 20
 """Bytes, packed or not."""
 MOST_FILES = 5000
 _NO_FILE_NAME = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
+_NEITHER = (
+    "this is neither a zip file nor XML that can be read. Choose a zip file of program files, or a PLCopen or L5X file"
+)
 NOTES_FILE = "ImportNotes.st"
 """Of comments alone: what a project that was taken in lacks."""
 _WHEN = (1980, 1, 1, 0, 0, 0)
@@ -132,6 +135,8 @@ def unpack(data: bytes) -> Archive:
         NotImplementedError,
         UnicodeError,
     ) as error:
+        if not data.startswith(b"PK"):
+            raise Refused(_NEITHER) from error
         raise Refused(f"this is no zip file that can be read: {error}") from error
 
 

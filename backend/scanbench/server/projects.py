@@ -277,10 +277,17 @@ def _question(changes: Sequence[Change]) -> str:
     return f"{'; '.join(parts)}: nothing was changed yet" if parts else ""
 
 
+_LONGEST_PATH = 200
+
+
 def _check_path(path: str) -> None:
     parts = path.split("/")
+    if len(path) > _LONGEST_PATH:
+        raise Refused(
+            f"the name of a file has at most {_LONGEST_PATH} characters, with its folders; this one has {len(path)}"
+        )
     odd = any(part.strip(". ") == "" or part.rstrip(". ").lower() == ".git" for part in parts)
-    if not is_project_file(path) or len(path) > 200 or odd:
+    if not is_project_file(path) or odd:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
             f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, its hardware in "

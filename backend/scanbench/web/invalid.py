@@ -12,4 +12,27 @@ def said(flaw: Mapping[str, object], place: str) -> str:
         return "type is missing"
     if flaw["type"] == "extra_forbidden":
         return f"{place} is unknown"
+    bound = _bound(str(flaw["type"]), about if isinstance(about, Mapping) else {}, place)
+    if bound:
+        return bound
     return f"{place}: {flaw['msg']}" if place else str(flaw["msg"])
+
+
+def _bound(type: str, about: Mapping[str, object], place: str) -> str:
+    """A value that is too long, short, large or small; empty for any other flaw."""
+    if not place:
+        return ""
+    match type:
+        case "string_too_long":
+            return f"{place}: at most {about['max_length']} characters"
+        case "string_too_short":
+            return f"{place}: at least {about['min_length']} characters"
+        case "greater_than_equal":
+            return f"{place}: at least {about['ge']}"
+        case "less_than_equal":
+            return f"{place}: at most {about['le']}"
+        case "greater_than":
+            return f"{place}: more than {about['gt']}"
+        case "less_than":
+            return f"{place}: less than {about['lt']}"
+    return ""

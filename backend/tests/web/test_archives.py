@@ -148,7 +148,7 @@ def _taken(server: Server, name: str, content: bytes) -> int:
 @pytest.mark.parametrize(
     ("params", "content", "why"),
     [
-        ({"name": "x", "model": "CJ1M-CPU63"}, b"nonsense", "no zip file"),
+        ({"name": "x", "model": "CJ1M-CPU63"}, b"nonsense", "neither a zip file nor XML"),
         ({"name": " ", "model": "CJ1M-CPU63"}, b"", "1 to 100 characters"),
     ],
 )

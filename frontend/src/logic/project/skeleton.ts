@@ -42,8 +42,8 @@ interface Chosen {
   input: string;
 }
 
-/** A name may have blanks where a declaration cannot. */
-const nameOf = (path: string) =>
+/** What a file declares: its name without folders and ending. That may have blanks where a declaration cannot. */
+export const nameOf = (path: string) =>
   path
     .replace(/^.*\//, "")
     .replace(/\.[^.]*$/, "")
@@ -83,3 +83,10 @@ const FIRST: Record<"LD" | "FBD" | "SFC", string> = {
 
 const drawn = (kind: NewKind, language: keyof typeof FIRST, name: string) =>
   ST[kind](name).replace(/\n\n(?:.*;\n)?(END_\w+\n)$/, `\n${FIRST[language]}$1`);
+
+/** Words of the language that can be the name of nothing. */
+const WORDS =
+  /^(?:AND|ARRAY|AT|BY|CASE|CLASS|CONFIGURATION|CONSTANT|CONTINUE|DO|ELSE|ELSIF|EXIT|FALSE|FOR|FUNCTION|FUNCTION_BLOCK|IF|INTERFACE|METHOD|MOD|NAMESPACE|NOT|OF|OR|PROGRAM|REPEAT|RESOURCE|RETAIN|RETURN|STRUCT|TASK|THEN|TO|TRUE|TYPE|UNTIL|VAR|WHILE|WITH|XOR|END_\w+|VAR_\w+)$/i;
+
+/** Whether a POU or a type can have this name. */
+export const isPouName = (name: string) => /^[\p{L}_][\p{L}\p{N}_]*$/u.test(name) && !WORDS.test(name);

@@ -179,9 +179,12 @@ export const project = {
   "file.adding": "Adding file {done} of {of}",
   "file.badname":
     "Use letters, digits, spaces, - and _ only, and a name that does not exist yet. For example FB_Lift, or plant/inputs.csv.",
+  "file.badpou":
+    "“{name}” cannot be the name of a program, block or type: use letters, digits and _, no digit first, and no word of the language. For example Lift_1.",
   "file.delete": "Delete",
   "file.delete.about": "The file is deleted for everybody. You cannot undo this.",
   "file.delete.hint": "The running program does not change until the next build.",
+  "file.delete.here": "In this file now: {names}. What they have not saved yet stays in their editors.",
   "file.delete.menu": "Delete {path}…",
   "file.delete.title": "Delete {path}",
   "file.gone": "This project has no file {path}. It was deleted, or it belongs to another project.",

@@ -178,9 +178,12 @@ export const project: Record<keyof typeof english, string> = {
   "file.added": "追加したファイル",
   "file.adding": "{of} 件中 {done} 件を追加済み",
   "file.badname": "文字・数字・空白・-・_ のみ、既存の名前は不可。例: FB_Lift, plant/inputs.csv",
+  "file.badpou":
+    "「{name}」はプログラム・ブロック・型の名前にできません。文字・数字・_ のみ、先頭は数字以外、予約語は不可。例: Lift_1",
   "file.delete": "削除",
   "file.delete.about": "全員から削除され、元に戻せません。",
   "file.delete.hint": "実行中のプログラムは次のビルドまで変わりません。",
+  "file.delete.here": "現在このファイルを開いている人：{names}。未保存の内容はその人のエディターに残ります。",
   "file.delete.menu": "{path} を削除…",
   "file.delete.title": "{path} を削除",
   "file.gone": "このプロジェクトにファイル {path} はありません。削除されたか、別のプロジェクトのものです。",

@@ -2,11 +2,13 @@ import { useState } from "react";
 import { declares, newFilePath } from "../../../logic/project/explorer";
 import {
   hasBody,
+  isPouName,
   KINDS,
   kindOf,
   languagesOf,
   type NewKind,
   type NewLanguage,
+  nameOf,
   skeleton,
 } from "../../../logic/project/skeleton";
 import { openFile } from "../../../store/page/navigate";
@@ -31,6 +33,8 @@ export function NewFile({ onClose }: { onClose: () => void }) {
   async function create(): Promise<void> {
     const path = newFilePath(name, files);
     if (path === null) throw new Error(t("file.badname"));
+    if (declares(path) && kind !== "global" && !isPouName(nameOf(path)))
+      throw new Error(t("file.badpou", { name: nameOf(path) }));
     await createFile(path, skeleton(path, { kind, language, ...(input === undefined ? {} : { input }) }));
     openFile(path, 1);
   }

@@ -142,7 +142,10 @@ test("a new name is the browser's, and the server sees it with a new connection"
   await choose(user, t("people.menu", { name: "Mika" }), t("name.menu"));
   const asking = await dialog(t("name.title"));
   await user.clear(box(t("name.label"), asking));
-  server.greeting = { you: { name: "Mi ka", initials: "MK", client: false }, users: [{ name: "Mi ka", initials: "MK", client: false }] };
+  server.greeting = {
+    you: { name: "Mi ka", initials: "MK", client: false },
+    users: [{ name: "Mi ka", initials: "MK", client: false }],
+  };
   await user.type(box(t("name.label"), asking), "Mi ka{Enter}");
   await noDialog();
   expect(document.cookie).toContain("scanbench_user=Mi%20ka");
