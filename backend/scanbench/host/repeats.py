@@ -49,7 +49,7 @@ class Repeats:
 
     def __init__(self) -> None:
         self._told: dict[_Source, _Told] = {}
-        """Those with an entry to tell stand in the order of these."""
+        """The last ones have the newest entries."""
 
     def text(self, entry: Entry, now: int) -> str | None:
         """What is said of an entry; None: nothing now. What `held` gives is said before."""

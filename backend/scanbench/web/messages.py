@@ -22,7 +22,6 @@ from scanbench.wire import events
 from scanbench.wire.campaigns import CampaignState
 from scanbench.wire.comparisons import Comparison, Rerun
 from scanbench.wire.debugging import Coverage
-from scanbench.wire.events import Disturbances, LogEntry
 from scanbench.wire.symbols import SymbolInfo
 from scanbench.wire.together import DraftEdited, PeopleChanged
 
@@ -224,12 +223,11 @@ class InstanceLimits(Wire):
 
 
 class User(Wire):
-    """Somebody who is at a PLC."""
+    """Somebody who is at a PLC; a `client` of a protocol is no person."""
 
     name: str
     initials: str
     client: bool = False
-    """A client of a protocol, not a person."""
 
 
 class Instance(Wire):
@@ -331,7 +329,7 @@ class Hello(Wire):
     users: list[User]
     instance: Instance
     errors: list[ErrorHistoryRow]
-    log: list[LogEntry]
+    log: list[events.LogEntry]
     forces: tuple[ForcedValue, ...]
     device: DeviceErrors | None = Field(description="null until the PLC was there once")
     armed: tuple[ArmedInfo, ...]
@@ -443,7 +441,7 @@ ServerMessage = Annotated[
     | events.RetrospectiveChanged
     | Coverage
     | Verifications
-    | Disturbances
+    | events.Disturbances
     | Comparison
     | CampaignState
     | Rerun

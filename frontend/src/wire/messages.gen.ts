@@ -9568,7 +9568,7 @@ export interface components {
         };
         /**
          * User
-         * @description Somebody who is at a PLC.
+         * @description Somebody who is at a PLC; a `client` of a protocol is no person.
          */
         User: {
             /**

@@ -4,7 +4,7 @@ from typing import Literal, NotRequired, TypedDict
 
 
 class User(TypedDict):
-    """Somebody who is at a PLC."""
+    """Somebody who is at a PLC; a `client` of a protocol is no person."""
 
     name: str
     initials: str

@@ -339,18 +339,6 @@ test("an error that only a sweep raised says so, beside the count of those that 
   expect(textOf(line(BASIC.name))).not.toContain(t("errors.status.never"));
 });
 
-test("a restart in a project that requires nothing is not told as required by it, and the grade is told", async () => {
-  const found = { ...REACTED, required: [], restarts: [{ path: "fan", scan: 1, allowed_by: "" }] };
-  const { server, user } = await openSimulator((server) =>
-    server.on("GET", "/instances/*/errors/*/reaction", () => found),
-  );
-  server.say({ type: "errors", whole: false, rows: [row(BASIC, { ...RAISED, reaction: verdict("acted", 1, 1) })] });
-  await user.click(line(BASIC.name));
-  await within(details()).findByRole("region", { name: t("required.restart.rule") });
-  expect(within(details()).queryByRole("region", { name: t("required.label") })).toBeNull();
-  expect(textOf(within(details()).getByRole("region", { name: t("reaction.label") }))).toContain(t("verdict.acted"));
-});
-
 test("a ticked error that is not fitted any more is not raised with the others", async () => {
   const { server, user } = await openSimulator();
   await user.click(tick(BASIC.name));
@@ -450,6 +438,7 @@ test("what the project requires is beside the reaction: passed, failed and why, 
   expect(lines[2]).toContain("There is no `lmp`.");
   const own = within(details()).getByRole("region", { name: t("required.restart.rule") });
   expect(textOf(own)).toContain(t("required.restart.about", { scan: 1, name: "fan" }));
+  expect(textOf(within(details()).getByRole("region", { name: t("reaction.label") }))).toContain(t("verdict.acted"));
   await user.click(within(list).getByRole("button", { name: "lamp" }));
   expect(places).toEqual(["file required.reactions"]);
 });
