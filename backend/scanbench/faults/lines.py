@@ -23,6 +23,8 @@ def find_line(program: Program, file: str, line: int) -> tuple[int, ...] | Refus
     lines = sorted({site.span.line for site in sites.statements if site.span.file == name})
     around = [each for each in lines if each < line][-1:] + [each for each in lines if each > line][:1]
     near = tuple(f"{name}:{each}" for each in around)
+    if len(near) == 1:
+        return Refusal(f"no statement begins at {name}:{line}; the nearest is at {near[0]}", near)
     return Refusal(f"no statement begins at {name}:{line}; the nearest are at {' and '.join(near)}", near)
 
 

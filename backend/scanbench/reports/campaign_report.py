@@ -32,6 +32,8 @@ class CampaignReport:
     require: Require = "any"
     allowed: int = 0
     """So many findings are let pass."""
+    instance: str = ""
+    """Name of the virtual PLC; empty where there was none."""
 
     @property
     def whole(self) -> bool:
@@ -93,7 +95,7 @@ def campaign_json(report: CampaignReport) -> dict[str, Json]:
     """One object; its shape is described in docs/verification.md."""
     wanted = report.campaign.wanted
     return {
-        "format": FORMAT, "project": report.project, "model": report.model, "seed": wanted.seed, "count": wanted.count,
+        "format": FORMAT, "project": report.project, "instance": report.instance, "model": report.model, "seed": wanted.seed, "count": wanted.count,
         "first": wanted.first, "last": wanted.last, "window": wanted.window, "kinds": list(wanted.kinds),
         "alarms": list(wanted.alarms), "require": report.require,
         "allowed": report.allowed, "whole": report.whole,
@@ -118,7 +120,8 @@ def campaign_junit(report: CampaignReport) -> str:
     cases = [_case(group, each, report) for each in report.campaign.trials]
     if not report.whole:
         cases.insert(0, Case(group, "all disturbances are tried", "error", _broken_off(report), "broken_off"))
-    return junit(f"{report.project} on {report.model}", cases)
+    named = f"{report.project}, {report.instance}" if report.instance else report.project
+    return junit(f"{named} on {report.model}", cases)
 
 
 def _case(group: str, trial: Trial, report: CampaignReport) -> Case:

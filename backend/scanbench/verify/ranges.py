@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 from scanbench.engines.debug import Frame
@@ -93,6 +93,7 @@ def resolve_range(program: Program, sites: Sites, wanted: Range, lines_of: Lines
         raise BadRange(f"lines {wanted.first} to {wanted.last} are none: the first line comes first")
     pous = _named(sites, wanted) if wanted.pou else _in_file(sites, wanted)
     _reaches(sites, pous[0].span.file, wanted, lines_of)
+    wanted, shorter = _ended(pous[0].span.file, wanted, lines_of)
     mine = frozenset(site for pou in pous for site in sites.bodies[pou])
     inside, lines, note = _within(sites, mine, wanted, pous[0].name)
     instances = _instances(program, pous[0])
@@ -100,7 +101,7 @@ def resolve_range(program: Program, sites: Sites, wanted: Range, lines_of: Lines
     title = pous[0].name + lines + (f", in {wanted.instance.strip()}" if wanted.instance else "")
     return Resolved(
         title, frozenset(pous), inside, mine - inside, frozenset(sites.bodies[each][0] for each in pous),
-        instances if only is None else (only[0],), None if only is None else only[1], note,
+        instances if only is None else (only[0],), None if only is None else only[1], note or shorter,
     )  # fmt: skip
 
 
@@ -148,6 +149,14 @@ def _reaches(sites: Sites, file: str, wanted: Range, lines_of: LinesOf) -> None:
     end = max(_end(sites, pou) for pou in sites.bodies if pou.span.file == file)
     if not lines and first > end + 1:  # after END_PROGRAM at best
         raise BadRange(f"{_asked(wanted)}: the last statement of {file} ends in line {end}")
+
+
+def _ended(file: str, wanted: Range, lines_of: LinesOf) -> tuple[Range, str]:
+    """The range up to the last line of the file, and what is said where it was to go further."""
+    lines = lines_of(file)
+    if not lines or wanted.last <= lines:
+        return wanted, ""
+    return replace(wanted, last=lines), f"{file} has {lines} lines: the range ends with the last of them"
 
 
 def _asked(wanted: Range) -> str:

@@ -142,7 +142,7 @@ def test_refused(tmp_path: Path) -> None:
 
     assert "refused before scan 4: memory-error is fatal" in refused("memory-error for 3@4")
     for text, says in (
-        ("battery-error when main.st:2", "main.st:2; the nearest are at"),
+        ("battery-error when main.st:2", "main.st:2; the nearest is at"),
         ("battery-error when Main.m > 3", "`Main.m > 3`: `Main` has no member `m`.\n"),
         ("battery-error for 9 unless Mian.n > 3@5", "Did you mean `Main`?\n"),
     ):

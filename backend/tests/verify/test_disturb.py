@@ -397,6 +397,8 @@ END_PROGRAM"""
         (Disturbance("stuck", "0.03", 2), "an input that is stuck is so with all its bits: name the bit in its path, as `0.03`"),
         (Disturbance("result", site="Main"), "`Main` is no place of the program: write file and line, as `Main.st:34`"),
         (Disturbance("result", site="main.st:1"), "no statement begins at main.st:1"),
+        (Disturbance("result", bit=77, site=site("n := n + 1;")), f"the result of {site('n := n + 1;')} has bits 0 to 15: there is no bit 77"),
+        (Disturbance("result", bit=1, site=site("b := n > 3;")), f"the result of {site('b := n > 3;')} has bit 0 only: there is no bit 1"),
         (Disturbance("result", site=site("IF n = 7 THEN")), f"the statement at {site('IF n = 7 THEN')} writes nothing itself: name a line with an assignment or a call"),
         (Disturbance("melt"), "melt is no kind of disturbance"),  # type: ignore[arg-type]
     ],

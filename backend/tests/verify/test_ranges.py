@@ -121,6 +121,10 @@ def test_lines_that_the_file_does_not_have() -> None:
         return resolve_range(made, sites_of(made), range, lambda file: 20)
 
     assert "line 13 was taken" in asked(Range(file="main.st", first=20, last=30)).note
+    found = asked(Range(pou="Main", first=12, last=999))
+    assert found.title.endswith(", lines 12 to 20")
+    assert found.note == "main.st has 20 lines: the range ends with the last of them"
+    assert asked(Range(pou="Main", first=12, last=20)).note == ""
     with pytest.raises(BadRange, match=r"main\.st has 20 lines: there are no lines 21 to 30"):
         asked(Range(file="main.st", first=21, last=30))
     with pytest.raises(BadRange, match=r"main\.st has 20 lines: there is no line 21"):

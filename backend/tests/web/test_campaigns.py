@@ -44,6 +44,8 @@ def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
 
     told = server.http.get("/api/campaigns/1/export").json()
     assert [each["number"] for each in told["trials"]] == list(range(1, 9))
+    (made,) = (each for each in server.http.get("/api/instances").json() if each["id"] == instance)
+    assert (told["project"], told["instance"]) == (made["project"]["name"], made["name"])
     cases = etree.fromstring(server.http.get("/api/campaigns/1/export", params={"format": "junit"}).content)
     assert len(cases.findall(".//testcase")) == 8
 

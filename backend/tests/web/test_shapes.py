@@ -70,7 +70,7 @@ def test_a_line_is_reached_also_after_an_edit_that_was_only_checked(server: Serv
         start = {"kind": "line", "file": "main.st", "line": 9}
         refused = browser.ask(type="arm", errors=BATTERY, start=start)
         assert not refused["ok"]
-        assert "no statement begins at main.st:9; the nearest are at main.st:8" in refused["message"]
+        assert "no statement begins at main.st:9; the nearest is at main.st:8" in refused["message"]
         shape = {"kind": "for", "scans": 3}
         assert browser.ask(type="arm", errors=BATTERY, start={**start, "line": 8}, shape=shape)["ok"]
         count = browser.number("Main.n") or 0

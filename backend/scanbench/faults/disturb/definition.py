@@ -159,7 +159,7 @@ def _bad_time(wanted: Disturbance, view: View) -> Refusal | None:
 def _bad_place(wanted: Disturbance, view: View) -> Refusal | None:
     if wanted.kind == "result":
         found = writing_sites(view.statements, wanted.site)
-        return found if isinstance(found, Refusal) else None
+        return found if isinstance(found, Refusal) else _bad_bit(view.statements, found, wanted)
     if wanted.kind == "flip" and not wanted.path.strip():
         return Refusal("say of which variable or address a bit is to turn over, as `D120` or `Main.count`")
     if not wanted.path.strip():
@@ -176,6 +176,20 @@ def _bad_place(wanted: Disturbance, view: View) -> Refusal | None:
         has = "bit 0 only" if bits == 1 else f"bits 0 to {bits - 1}"
         return Refusal(f"{symbol.path} is {symbol.type.name} and has {has}: there is no bit {wanted.bit}")
     return None
+
+
+def _bad_bit(program: Program, found: frozenset[int], wanted: Disturbance) -> Refusal | None:
+    """Of assignments alone it is known before they run how large their result is."""
+    sites = sites_of(program)
+    writing = [stmt for pou in program.tasked for stmt in every(pou.body) if sites.number(stmt) in found]
+    types = [each.target.type for each in writing if isinstance(each, Assign)]
+    if wanted.bit is None or len(types) < len(writing) or not all(isinstance(each, Elementary) for each in types):
+        return None
+    bits = max((1 if each == BOOL else 8 * each.size for each in types), default=0)
+    if not bits or wanted.bit < bits:
+        return None
+    has = "bit 0 only" if bits == 1 else f"bits 0 to {bits - 1}"
+    return Refusal(f"the result of {wanted.site} has {has}: there is no bit {wanted.bit}")
 
 
 def writing_sites(program: Program, site: str) -> frozenset[int] | Refusal:

@@ -49,12 +49,9 @@ async def on_export(
     """The same as `scanbench campaign --json` and `--junit` write."""
     state, trials = bench.campaigns.whole(campaign)
     session = bench.session(state.instance)
+    project = await bench.projects.get(session.project_id)
     report = CampaignReport(
-        session.name,
-        session.model.name,
-        Campaign(state.wanted, trials),
-        state.of,
-        require,
+        project.name, session.model.name, Campaign(state.wanted, trials), state.of, require, instance=session.name
     )
     if format == "junit":
         return Response(campaign_junit(report), media_type="application/xml")

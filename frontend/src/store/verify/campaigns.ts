@@ -9,6 +9,7 @@ import type { CampaignState, CampaignTrial } from "../../wire/types";
 import { openPage } from "../page/navigate";
 import { refreshApp, useBench } from "../plc/bench";
 import { openInstance } from "../plc/instances";
+import { useLinks } from "../plc/links";
 
 interface Campaigns {
   form: CampaignForm;
@@ -68,13 +69,14 @@ export const forgetCampaign = (id: number) =>
     fetchTrials();
   });
 
-/** A new paused PLC with the run as this disturbance made it. */
-export const openTrial = (id: number, number: number) =>
+/** A new paused PLC with the run as this disturbance made it; the page goes to the scan in which it came, to be verified there. */
+export const openTrial = (id: number, number: number, scan: number) =>
   guarded(async () => {
     set({ opening: number });
     try {
       const made = await campaigns.open(id, number);
       await refreshApp();
+      useLinks.setState({ opened: { instance: made.id, scan, panel: "verify" } });
       openInstance(made);
     } finally {
       set({ opening: null });

@@ -1,3 +1,4 @@
+import { useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
 import { shareOf } from "../../../logic/past/past";
 import { useBench } from "../../../store/plc/bench";
@@ -117,14 +118,32 @@ function Shown({ campaign }: { campaign: CampaignState }) {
   );
 }
 
+const REQUIRED = ["any", "program"] as const;
+
+/** What is a failure in the files is chosen beside them. */
 function Exports({ id }: { id: number }) {
+  const [required, require] = useState<(typeof REQUIRED)[number]>("any");
+  const path = `/api/campaigns/${id}/export?require=${required}`;
   return (
     <>
-      <a className="btn sm" href={`/api/campaigns/${id}/export?format=junit`} download={`campaign-${id}.xml`}>
+      <select
+        className="inp sm"
+        aria-label={t("campaign.require")}
+        title={t("campaign.require.about")}
+        value={required}
+        onChange={({ target }) => require(REQUIRED.find((each) => each === target.value) ?? "any")}
+      >
+        {REQUIRED.map((each) => (
+          <option key={each} value={each}>
+            {t(`campaign.require.${each}`)}
+          </option>
+        ))}
+      </select>
+      <a className="btn sm" href={`${path}&format=junit`} download={`campaign-${id}.xml`}>
         <Icon name="export" small />
         JUnit
       </a>
-      <a className="btn sm" href={`/api/campaigns/${id}/export`} download={`campaign-${id}.json`}>
+      <a className="btn sm" href={path} download={`campaign-${id}.json`}>
         <Icon name="export" small />
         JSON
       </a>

@@ -106,7 +106,7 @@ function Line({ campaign, trial }: { campaign: number; trial: CampaignTrial }) {
             disabled={opening !== null}
             title={t("campaign.open.about")}
             aria-label={t("campaign.open.of", { number })}
-            onClick={() => void openTrial(campaign, number)}
+            onClick={() => void openTrial(campaign, number, scan)}
           >
             <Icon name={opening === number ? "wait" : "branch"} small />
             {t("campaign.open")}
