@@ -137,7 +137,8 @@ class RunFile:
         """What `scan_blocks` came upon."""
         self.mended: Mended | None = None
         """Its blocks, where there is damage between them."""
-        self._marked: int | None = None
+        self.marked: int | None = None
+        """The scan of the mark at its end, which every writer that comes to its end leaves there; None where there is none."""
         self._packer = zstandard.ZstdCompressor(level=1)
 
     @classmethod
@@ -183,7 +184,7 @@ class RunFile:
         block = Block(
             kind, scan, self.end, len(payload), packing, head_size(self.format), self.entries, base, crc, slot
         )  # fmt: skip
-        self.end, self.place, self._marked = block.end, self.place.after(block), None
+        self.end, self.place, self.marked = block.end, self.place.after(block), None
         return block
 
     def append_short(self, slot: int, scan: int, payload: bytes) -> bool:
@@ -194,23 +195,23 @@ class RunFile:
         data, _ = made
         place = Place(self.entries + 1, scan)
         marked = (
-            self._marked is not None
+            self.marked is not None
         )  # it may be longer than what takes its place: there is to be nothing left of it
         self._put(data + self._mark(scan, place.entries) if marked else data)
-        self.end, self.place, self._marked = self.end + len(data), place, scan if marked else None
+        self.end, self.place, self.marked = self.end + len(data), place, scan if marked else None
         return True
 
     def append_raw(self, data: bytes) -> None:
         """Appends whole blocks that were copied from a different run file."""
         self._put(data)
         self.end += len(data)
-        self._marked = None
+        self.marked = None
 
     def mark(self, scan: int) -> None:
         """Writes the last known scan at the end, over the mark that may be there."""
-        if scan != self._marked:
+        if scan != self.marked:
             self._put(self._mark(scan))
-            self._marked = scan
+            self.marked = scan
 
     def payload(self, block: Block, most: int = LARGEST) -> bytes:
         """What a block holds, unpacked; `RunFileError` when that is more than `most` bytes, or none at all."""
@@ -281,11 +282,11 @@ class RunFile:
 
     def end_after(self, block: Block | None, offset: int, place: Place) -> None:
         """What is appended next is written at `offset`, where this block ends; over it, should it be a mark."""
-        self.end, self._upto, self._marked, self.place = offset, offset, None, place
+        self.end, self._upto, self.marked, self.place = offset, offset, None, place
         if block is None:
             return
         if block.kind is Kind.MARK and not block.length:
-            self.end, self._marked = block.offset, block.scan
+            self.end, self.marked = block.offset, block.scan
 
     def go_on_with(self, blocks: Sequence[Block]) -> None:
         """Takes these for its blocks, which are in order, not without damage between them; `damage` is then what is after all."""
@@ -324,8 +325,8 @@ class RunFile:
         except OSError:
             with suppress(OSError):
                 os.ftruncate(self.fd, self.end)
-                if self._marked is not None:
-                    _write(self.fd, self._mark(self._marked), self.end)
+                if self.marked is not None:
+                    _write(self.fd, self._mark(self.marked), self.end)
             raise
 
     def _mark(self, scan: int, entries: int | None = None) -> bytes:

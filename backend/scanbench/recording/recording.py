@@ -129,6 +129,8 @@ class Recording:
         self.lost = ends_early or bool(found.gaps)
         """Whether scans or commands are lost that it held."""
         self.damaged = self.lost or file.mended is not None or file.damage is not None
+        self.marked = file.marked is not None
+        """Whether what was read ends with the mark of its last scan: not where it was cut off, nor where its writer was ended."""
         """Whether there is any damage. A file that ends in the middle of a block may have been cut off: nobody knows what came after."""
         self._repeat: list[tuple[Kind, bytes]] = []
         """Written once more after the next state, so that no damaged block costs the whole run."""
@@ -336,6 +338,7 @@ class Recording:
         self.ends_early = file.damage is not None and not file.damage.torn
         self.lost = self.ends_early or bool(self.gaps)
         self.damaged = self.lost or file.mended is not None or file.damage is not None
+        self.marked = file.marked is not None
         return entries
 
     def before(self, scan: int) -> Checkpoint | None:

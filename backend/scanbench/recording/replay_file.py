@@ -72,10 +72,13 @@ def replay_file(
             raise Unreadable(f"{path.name} cannot be replayed: {error}") from error
         digest = hashlib.sha256(resource.state).hexdigest()
         recording = reader.recording
-        about = recording.about
+        about, damage, damaged = recording.about, recording.damage, recording.damaged
+        if until is None and not damaged and not recording.marked:
+            cut = f"{path.name} ends without the mark of its last scan: its writer was ended, or the file was cut off"
+            damage, damaged = f"{cut}. Whether more than scan {end} was recorded is not known", True
         return Replayed(
-            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, recording.lost,
-            recording.info.lost, recording.damaged, about.by, about.created,
+            first, resource.header.scan, digest, len(resource.journal), agreed, damage, recording.lost,
+            recording.info.lost, damaged, about.by, about.created,
         )  # fmt: skip
 
 

@@ -157,6 +157,7 @@ def write_copy(seen: Seen, path: Path, ending: Ending) -> None:
     try:
         made.file.append(Kind.KEYFRAME, ending.scan, keyframe(ending.version, ending.state))
         made.repeat()
+        made.file.mark(ending.scan)
         os.fsync(made.file.fd)
         os.replace(made.file.path, path)
     except (OSError, MemoryError):

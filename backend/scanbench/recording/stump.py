@@ -35,6 +35,7 @@ def write_stump(
         for index in roots:
             file.append(Kind.ENTRY, entries[index].scan, codec.pack(entries[index]))
         file.append(Kind.KEYFRAME, scan, keyframe(version, state))
+        file.mark(scan)
     except BaseException:
         with suppress(OSError):
             to.unlink()

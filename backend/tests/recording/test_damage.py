@@ -52,9 +52,9 @@ def _looked_at(path: Path, file: Whole, done: Accident, right: Replayed, chance:
         assert left is None, "there is enough of it left"
         return "refused"
     same = (found.scan, found.hash, found.scans) == (right.scan, right.hash, right.scans)
-    if not same and done.kind != "end":
-        assert found.lost or found.damage, f"{found} is said to be whole"
     if not same:
+        assert found.damaged, f"{found} is said to be whole"
+        assert found.damage
         assert found.scans < right.scans
     if found.lost:
         assert found.damage
