@@ -12,7 +12,7 @@ from scanbench.check.declare.settings import Settings
 from scanbench.check.declare.start_references import bind_start_references
 from scanbench.check.life.whole import Whole
 from scanbench.plcmodel.model import Location, Model
-from scanbench.problems import Span
+from scanbench.problems import Severity, Span
 from scanbench.program.copies import copies_of
 from scanbench.program.layout import Layout, align
 from scanbench.program.program import Base, Place, Pou, Program
@@ -168,10 +168,24 @@ class _Placing:
         for task in planned:
             for each in task.runs:
                 if isinstance(each, PlannedInstance):
+                    self._connected(each)
                     retain = each.declaration is not None and each.declaration.retain
                     self.instances[each.name.upper()] = ProgramInstance(
                         each.name, each.pou, self._place_of(each.pou), retain=retain
                     )
+
+    def _connected(self, planned: PlannedInstance) -> None:
+        """Refuses a program with in-outs, which only a call connects."""
+        pou = planned.pou
+        if any(each.severity is Severity.ERROR for each in self.report.problems):
+            return  # the call that connects it may be in what was refused
+        open_ = next((each.name for each in pou.instance.members.values() if each.section is Section.IN_OUT), None)
+        if open_ is not None:
+            span = pou.span if planned.declaration is None else planned.declaration.span
+            self.report.error(
+                "T005", f"`{pou.name}` has the in-out `{open_}`, which nothing would connect when a task runs it; call it in "
+                f"another program, `{pou.name}({open_} := ...)`.", span,
+            )  # fmt: skip
 
     def _place_of(self, pou: Pou) -> int:
         placed = self.placed.pop(pou.name.upper(), None)

@@ -78,6 +78,7 @@ class Allowance(Enum):
     LITERAL_VALUES = auto()
     ADDRESS_OPERATOR = auto()
     MIXED_ARGUMENTS = auto()
+    COUNTER_WRITES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -397,6 +398,11 @@ RULES: dict[Allowance, Rule] = {
         "`&x` as the address of a variable",
         "`&` joins two operands, as AND",
         "`REF(x)`",
+    ),
+    Allowance.COUNTER_WRITES: Rule(
+        "assignments to the counter of a FOR loop inside of it, by `:=`, `=>` or an in-out: after each round the step is added to what it then is",
+        "only the loop changes its counter",
+        "`EXIT`, or a WHILE loop",
     ),
     Allowance.MIXED_ARGUMENTS: Rule(
         "arguments by position after some by name: they go to those that have no name in the call, in their order",

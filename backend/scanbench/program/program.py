@@ -296,7 +296,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class For:
-    """`start`, `end` and `step` have the type of `variable`, an integer."""
+    """`start`, `end` and `step` have the type of `variable`, an integer. It `follows` what the body leaves in a variable of up to 32 bits."""
 
     variable: Place
     start: Expr
@@ -311,6 +311,7 @@ class For:
     given: tuple[tuple[Place, int, int], ...] = ()
     """Where all of these are between their bounds as the loop begins, `inside` does the same as `body`, with fewer checks."""
     inside: tuple["Stmt", ...] = ()
+    follows: bool = False
 
 
 @dataclass(frozen=True, slots=True)

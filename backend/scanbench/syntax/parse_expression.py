@@ -4,6 +4,7 @@ from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_generic import chosen_type
 from scanbench.syntax.parse_literal import literal
 from scanbench.syntax.source import Stretch
 
@@ -62,7 +63,10 @@ def operand(c: Cursor) -> tree.Expression:
         text = texts[at]
         c.at = at + 1
         start = c.starts[at]
-        name = tree.Name(text, Stretch(c.source, start, start + len(text)))
+        span = Stretch(c.source, start, start + len(text))
+        if texts[at + 1] == "<" and (chosen := chosen_type(c)):
+            return postfix(c, tree.Name(f"{text}<{chosen}>", span))
+        name = tree.Name(text, span)
         return postfix(c, name) if texts[at + 1] in POSTFIX else name
     if kind in LITERALS:
         c.at = at + 1

@@ -7,6 +7,10 @@ from scanbench.syntax.cursor import NAME, Cursor
 
 TYPE_PARAMETERS = "typed"
 """Among the modifiers of a FUNCTION: it has type parameters, and `Twice__INT` is what runs for INT, if there is one."""
+ELEMENTARY = frozenset(
+    "BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL STRING WSTRING CHAR WCHAR TIME LTIME DATE LDATE "
+    "TOD LTOD DT LDT TIME_OF_DAY DATE_AND_TIME".split()
+)
 VARIADIC = "variadic"
 """Among the modifiers of a FUNCTION: a call may have more arguments than it names."""
 
@@ -50,6 +54,15 @@ def grouped(
         for section in sections
     ]
     return made, None if result is None else settled(result)
+
+
+def chosen_type(c: Cursor) -> str:
+    """The type in `f<DINT>(...)`, which comes next and is taken; '' where a comparison does. No variable is named as a type."""
+    type = c.texts[c.at + 1].upper()
+    if c.texts[c.at + 2 : c.at + 4] != [">", "("] or type not in ELEMENTARY:
+        return ""
+    c.at += 3
+    return type
 
 
 def any_number_follows(c: Cursor) -> bool:

@@ -88,6 +88,7 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
     (Allowance.VENDOR_OPERATORS, "i := ANY_TO_INT(d);", "TO_INT(...)"),
+    (Allowance.COUNTER_WRITES, "FOR i := 1 TO 3 DO i := j; END_FOR", "WHILE"),
     (Allowance.MIXED_ARGUMENTS, "s := Part(count := 2, s);", "level := 3"),
     (Allowance.LITERAL_VALUES, "numbers := [i, 2];", "numbers[1] := 1;"),
     (Allowance.ADDRESS_OPERATOR, "ok := &i <> NULL;", "REF(i)"),
@@ -465,3 +466,31 @@ def test_the_first_uses_of_a_rule_in_a_file_are_told_and_the_others_counted() ->
         "The same in 4 more places of this file, from here on: in IEC 61131-3 a bit"
     )
     assert "more place" not in found.problems[6].message
+
+
+CALLED = "PROGRAM Move\nVAR_IN_OUT n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+TYPED = "FUNCTION Twice<T: ANY_INT> : T\nVAR_INPUT x : T; END_VAR\nTwice := x + x;\nEND_FUNCTION\n"
+
+
+@pytest.mark.parametrize(
+    ("before", "body", "says"),
+    [
+        ("", "VAR i : LINT; END_VAR\nFOR i := 1 TO 3 DO i := 3; END_FOR", "only counters of up to 32 bits"),
+        ("", "VAR i : INT (0..9); END_VAR\nFOR i := 1 TO 3 DO i := 3; END_FOR", "without a subrange"),
+        ("", "VAR i, j : INT; END_VAR\nFOR i := 1 TO 3 BY j DO i := 3; END_FOR", "is a constant"),
+        (CALLED, "VAR i : INT; END_VAR\ni := 1;", "nothing would connect"),
+        (CALLED, "VAR i : INT; END_VAR\nMove();", "must be connected at every call"),
+        (TYPED, "VAR i : INT; END_VAR\ni := Twice<REAL>(i);", "takes ANY_INT, not REAL"),
+        (TYPED, "VAR i : INT; END_VAR\ni := Twice<STRING>(i);", "is not supported"),
+        ("", "VAR i : INT; END_VAR\ni := LIMIT<INT>(1, i, 2);", "There is no function"),
+    ],
+)
+def test_what_a_dialect_does_not_compute_is_refused(before: str, body: str, says: str) -> None:
+    found = check_sources(with_dialect({"a.st": f"{before}PROGRAM Main\n{body}\nEND_PROGRAM\n"}, "codesys"), MODEL)
+    assert found.program is None
+    assert [says in each.message for each in found.problems if each.severity is Severity.ERROR] == [True]
+
+
+def test_the_strict_language_has_no_in_outs_of_programs() -> None:
+    found = check_sources(with_dialect({"a.st": CALLED}, "iec"), MODEL).problems
+    assert found[0].code == "D008"

@@ -6,6 +6,7 @@ from scanbench.check.body import fold, targets
 from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.counting import lent_counter
 from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES
@@ -211,6 +212,7 @@ def _bind(
         bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
     elif argument is not None and value is not None:
         target, variable = declared_target(body, value)
+        lent_counter(body, target, value)
         if not argument.negated and _takes(target.type, member.type):
             bound.places[key] = target
             return
@@ -272,6 +274,7 @@ def in_out(
     reader = None if member.copied else variable_symbol(member, owner)  # a copy is written back
     place = targets.target(body, value, how, reader)
     body.report.lent.append(targets.variable(value).span)
+    lent_counter(body, place, value)
     if once and reader is not None and _is_shorter(place.type, member.type):
         return _read_as(body, member, reader, place, value, before)
     return _bindable(body, member, place, value)

@@ -8,6 +8,7 @@ from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
+from scanbench.check.body.counting import not_counter
 from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
@@ -148,7 +149,7 @@ def _target(body: Body, node: tree.Assignment) -> Found:
         with suppress(Rejected):
             body.expression(node.value)
         raise
-    _not_counter(body, target, node)
+    not_counter(body, target, node.target, node.span)
     return target, member
 
 
@@ -208,16 +209,6 @@ def _copied(body: Body, type: Type, node: tree.Assignment) -> bool:
     body.report.undo(mark)
     what = f"All that `{shown(node.value)}` has is copied"
     return given == type and allowed(body, Allowance.INSTANCE_COPIES, node.span, what)
-
-
-def _not_counter(body: Body, target: Place, node: tree.Assignment) -> None:
-    for counter in body.counters:
-        same = (counter.base, counter.offset, counter.slot, counter.bit)
-        if (target.base, target.offset, target.slot, target.bit) == same and target.type == counter.type:
-            raise body.report.reject(
-                "T008", f"`{shown(node.target)}` counts this FOR loop and cannot be assigned in it; use EXIT to leave.",
-                node.span,
-            )  # fmt: skip
 
 
 def alike(first: Type | None, second: Type) -> bool:

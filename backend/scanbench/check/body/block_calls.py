@@ -6,6 +6,7 @@ from dataclasses import replace
 from scanbench.check.body.arguments import by_formal, in_out, open_bound, output_value, together
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.counting import lent_counter
 from scanbench.check.body.direct import as_argument
 from scanbench.check.body.dispatch import Dispatcher
 from scanbench.check.body.enabling import condition_of, enabling, given_enable, store_eno
@@ -126,6 +127,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
             inputs += _noted_input(body, own, value, formal, argument.span)
             continue
         target, member = declared_target(body, argument.value)
+        lent_counter(body, target, argument.value)
         note = noting(body, target, member)
         if note is not None and isinstance(target.type, Subrange):
             taken = body.temporary(base_of(target.type), argument.span)

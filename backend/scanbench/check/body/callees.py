@@ -5,7 +5,7 @@ from dataclasses import replace
 from scanbench.check.body.allowed import may
 from scanbench.check.body.arguments import Invocation, invoke
 from scanbench.check.body.context import Body
-from scanbench.check.body.generic import instantiated
+from scanbench.check.body.generic import instantiated, of_chosen_type
 from scanbench.check.body.methods import send
 from scanbench.check.body.objects import dotted, own_class
 from scanbench.check.body.overloads import method_overload, of_types, overload
@@ -47,7 +47,10 @@ def callee_of(
     if method is not None:
         return method if node is None else (method[0], method_overload(body, *method, node))
     name = dotted(callee)
-    if name is None or hides(body, name):
+    if name is None:
+        return None
+    name, _, chosen = name.partition("<")  # `f<DINT>(...)`
+    if hides(body, name):
         return None
     names: Names = body.declarations.names
     key = names.find(name, callee.span, body.pous.functions, body.pous.generic)
@@ -60,6 +63,8 @@ def callee_of(
         return None  # a conversion
     if key is not None:
         body.report.use(callee.span, name, Symbol("pou", "", key.partition("(")[0]))
+    if key is not None and chosen:
+        return of_chosen_type(body, key, chosen.rstrip(">"), node, callee.span)
     if key in body.pous.generic:
         typed = of_types(body, key, node)
         if typed is not None:

@@ -107,6 +107,8 @@ class Body:
     explicit: tuple[tree.Expression, ...] = ()
     """Arguments of calls with EN or ENO that are being checked."""
     counters: list[Place] = field(default_factory=list)
+    followed: list[Place] = field(default_factory=list)
+    """Those of `counters` that the body of their loop writes, too."""
     """Control variables of the FOR loops around."""
     loops: int = 0
     """Loops around."""

@@ -10,7 +10,7 @@ from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Instance
 from scanbench.problems import Span
 from scanbench.program.program import Expr, Pou
-from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, base_of
+from scanbench.program.types import ELEMENTARY, Elementary, Kind, Record, StringType, Subrange, base_of
 from scanbench.program.untyped import common, is_untyped, settle
 from scanbench.syntax import tree
 from scanbench.syntax.parse_generic import TYPE_PARAMETERS
@@ -52,12 +52,38 @@ def instantiated(body: Body, declaration: tree.PouDeclaration, node: tree.Call) 
             raise body.report.reject(
                 "T004", f"`{declaration.name}` needs an argument to find out what {missing} is.", node.span
             )
+    return _of_types(body, declaration, types).pou
+
+
+def of_chosen_type(body: Body, key: str, type_name: str, node: tree.Call | None, span: Span) -> Pou:
+    """What `f<DINT>(...)` calls: `f__DINT` where there is one, else `f` with this type for its type parameter."""
+    declaration = body.pous.generic.get(key)
+    if declaration is None or TYPE_PARAMETERS not in declaration.modifiers:
+        raise body.report.reject(
+            "T004", f"`{key.lower()}` has no type parameter; call it without `<{type_name}>`.", span
+        )
+    special = body.pous.functions.get(f"{key}__{type_name}")
+    if special is not None:
+        return special
+    groups, type = set(_generics(declaration)), ELEMENTARY.get(type_name)
+    if len(groups) != 1 or type is None or node is None:
+        raise body.report.reject(
+            "X001", f"`{declaration.name}<{type_name}>` is not supported: only one type parameter of an elementary type is chosen "
+            "so. Let the arguments choose.", span,
+        )  # fmt: skip
+    group = groups.pop()
+    if type.kind not in KINDS[group]:
+        raise body.report.reject("T002", f"`{declaration.name}` takes {group}, not {type}.", span)
+    return _of_types(body, declaration, {group: type}).pou
+
+
+def _of_types(body: Body, declaration: tree.PouDeclaration, types: dict[str, Elementary | StringType]) -> Instance:
     suffix = ".".join(str(types[name]) for name in sorted(types))
     key = f"{qualified(declaration.namespace, declaration.name)}<{suffix}>"
     known = body.pous.instances.get(key)
     made = known or _make(body, key, declaration, types)
     body.pous.instances[key] = made
-    return made.pou
+    return made
 
 
 def _generic_arguments(

@@ -28,7 +28,7 @@ from scanbench.syntax.networks import NetworkBody
 def pou_body(body: Body, declaration: tree.PouDeclaration) -> tuple[Stmt, ...]:
     """The body of a POU, in the language in which it is written."""
     written = declaration.body
-    body.counters, body.loops, body.final = [], 0, None
+    body.counters, body.followed, body.loops, body.final = [], [], 0, None
     prologue, checks = _prologue(body), len(body.report.checks)
     if body.pou is not None and body.pou.kind != "function":
         prologue += edges(body.pou.instance)

@@ -33,7 +33,7 @@ def method_called(body: Body, callee: tree.Expression) -> tuple[Receiver, Method
 def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, Method] | None:
     if isinstance(node, tree.Name):
         owner = own_class(body)
-        free = _free(body, node.name) or (not half and _is_action_too(body, node.name))
+        free = _free(body, node.name) or (not half and (_is_action_too(body, node.name) or _is_result(body, node.name)))
         found = _found(owner, node.name.upper(), half) if owner and free else None
         if owner is None or found is None:
             return None
@@ -62,6 +62,13 @@ def _is_action_too(body: Body, name: str) -> bool:
     """Whether a value of this name cannot be called, and an ACTION of the same POU can, as vendors allow."""
     found = body.scope.find(name)
     return found is not None and not isinstance(found[0].type, Record) and name.upper() in body.pous.classes.actions
+
+
+def _is_result(body: Body, name: str) -> bool:
+    """Whether it is the result of this method, a plain value: what is called by its name is the method."""
+    found = body.scope.find(name)
+    own = found is not None and found[0].section is Section.RESULT
+    return own and found is not None and not isinstance(found[0].type, Record | Reference)
 
 
 def _found(owner: Class, name: str, half: str) -> Method | None:

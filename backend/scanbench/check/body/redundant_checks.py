@@ -159,7 +159,7 @@ class _Needless:
         if isinstance(node, For):
             start, end, step = self.expr(node.start), self.expr(node.end), self.expr(node.step)
             self.facts = {}
-            given, inside = ((), ()) if self._tries else self.versions(node)
+            given, inside = ((), ()) if self._tries or node.follows else self.versions(node)
             made: Stmt = replace(
                 node, start=start, end=end, step=step, body=self.block(node.body), given=given, inside=inside
             )

@@ -232,7 +232,14 @@ def _for(body: Body, node: tree.ForStatement) -> Stmt:
     inner = _loop(body, node.body)
     body.counters.pop()
     limits = (type.low, type.high) if isinstance(type, Subrange) else None
-    return For(counter, start, end, step, inner, _leaves(inner, outer=True), trap, node.span, limits)
+    follows = counter in body.followed
+    if follows:
+        body.followed.remove(counter)
+        if not isinstance(step, Const):
+            told = "The step of a FOR whose counter is assigned in the loop is a constant."
+            raise body.report.reject("T008", told, (node.step or node.end).span)
+    leaves = follows or _leaves(inner, outer=True)
+    return For(counter, start, end, step, inner, leaves, trap, node.span, limits, follows=follows)
 
 
 def _counted(body: Body, counter: Place, node: tree.ForStatement) -> Place:

@@ -29,7 +29,8 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
         if kind is Section.GLOBAL:
             declared.report.error("D008", "VAR_GLOBAL belongs outside of POUs.", section.span)
             continue
-        if declaration.kind == "program" and kind is Section.IN_OUT:
+        called = Allowance.PROGRAM_CALLS in declared.dialect.allows
+        if declaration.kind == "program" and kind is Section.IN_OUT and not called:
             declared.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)
             continue
         constant = "CONSTANT" in section.qualifiers

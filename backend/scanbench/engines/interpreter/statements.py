@@ -17,6 +17,7 @@ from scanbench.program.program import (
     Blocks,
     CallBlock,
     Case,
+    Const,
     Continue,
     Evaluate,
     Exit,
@@ -298,6 +299,8 @@ class Statements(Expressions):
         return loop
 
     def _for(self, node: For) -> Body:
+        if node.follows:
+            return self._following(node)
         start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
         store, spend = self.places.write(node.variable), self._spender(node.trap)
         body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
@@ -327,6 +330,39 @@ class Statements(Expressions):
                     return how
                 counter += by
             store(instance, min(max(wrap(counter), low), high))
+            return GO_ON
+
+        return loop
+
+    def _following(self, node: For) -> Body:
+        """A loop that goes on from what its body leaves in the counter."""
+        start, end, read = self.evaluate(node.start), self.evaluate(node.end), self.places.read(node.variable)
+        store, spend = self.places.write(node.variable), self._spender(node.trap)
+        body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
+        type = node.variable.type
+        assert isinstance(type, Elementary)
+        assert isinstance(node.step, Const)
+        wrap, by = arithmetic.wrapper(type), node.step.value
+        assert isinstance(by, int)
+
+        def loop(instance: int) -> int:
+            counter, last = start(instance), end(instance)
+            assert isinstance(counter, int)
+            assert isinstance(last, int)
+            if counter > last if by > 0 else counter < last:
+                none(instance)
+            while counter <= last if by > 0 else counter >= last:
+                spend(1)
+                store(instance, wrap(counter))
+                how = body(instance)
+                if how == EXIT:
+                    return GO_ON
+                if how >= RETURN:
+                    return how
+                left = read(instance)
+                assert isinstance(left, int)
+                counter = left + by
+            store(instance, wrap(counter))
             return GO_ON
 
         return loop

@@ -12,7 +12,7 @@ from scanbench.engines.native.emit_body import Body, counter_key
 from scanbench.engines.native.emit_checks import is_outside, within_bounds
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_memory import store
-from scanbench.engines.native.emit_places import address, widened
+from scanbench.engines.native.emit_places import address, load, widened
 from scanbench.engines.native.emit_strings import pick
 from scanbench.engines.native.emit_types import elementary, value_type
 from scanbench.engines.native.flavour import RUN
@@ -127,6 +127,8 @@ def _for(body: Body, loop: For) -> None:
     step = body.scalar(loop.step)
     by = int(loop.step.value) if isinstance(loop.step, Const) and not isinstance(loop.step.value, bytes) else 0
     low, high = min(start.low, end.low), max(start.high, end.high)
+    if loop.follows:
+        low, high = bounds(type)
     if by and within((low + min(by, 0), high + max(by, 0)), I64):
         _counted(body, loop, (start, end, by))
     else:
@@ -141,11 +143,19 @@ def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
     if not loop.exits:
         _take_counted(body, (first, last), parts, loop.trap)
     after, inner = text.name("after"), (start.low, end.high) if step > 0 else (end.low, start.high)
+    if loop.follows:
+        inner = bounds(type)
 
     def all_rounds(inside: Round) -> str:
         return _rounds(
-            body, (first, last, step), lambda counter, latch: inside(body, loop, counter, inner, (after, latch))
+            body,
+            (first, last, step),
+            lambda counter, latch: inside(body, loop, counter, inner, (after, latch)),
+            left if loop.follows else None,
         )
+
+    def left() -> str:
+        return widened(body, load(body, loop.variable), type)
 
     counter = None
     if emit_deferred.deferrable(body, loop):
@@ -160,8 +170,11 @@ def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
     text.begin(after)
 
 
-def _rounds(body: Body, count: tuple[str, str, int], inside: Callable[[str, str], None]) -> str:
-    """Emits the rounds; `inside` gets the counter and the block of the next round. Gives the counter that failed the test."""
+def _rounds(
+    body: Body, count: tuple[str, str, int], inside: Callable[[str, str], None], left: Callable[[], str] | None
+) -> str:
+    """Emits the rounds; `inside` gets the counter and the block of the next round. `left` emits what the round left in the counter, where
+    the body writes it, too. Gives the counter that failed the test."""
     text, (first, last, step) = body.text, count
     before, head, do, latch = text.block, text.name("for"), text.name("do"), text.name("next")
     done, next_value = text.name("done"), f"%{text.name('n')}"
@@ -170,10 +183,15 @@ def _rounds(body: Body, count: tuple[str, str, int], inside: Callable[[str, str]
     counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
     text.choose(text.op(f"icmp {'sle' if step > 0 else 'sge'} i64 {counter}, {last}"), do, done)
     text.begin(do)
-    inside(counter, latch)
-    text.go(latch)
-    text.begin(latch)
-    text.do(f"{next_value} = add nsw i64 {counter}, {step}")
+    again = latch if left is None else text.name("left")
+    inside(counter, again)
+    text.go(again)
+    text.begin(again)
+    reached = counter if left is None else left()
+    if left is not None:  # which may be several blocks, and the head comes from one
+        text.go(latch)
+        text.begin(latch)
+    text.do(f"{next_value} = add nsw i64 {reached}, {step}")
     text.go(head)
     text.begin(done)
     return counter
