@@ -193,6 +193,8 @@ class Driving:
         self._pacer.run_on(self._resource.header.scan, drive.scans, condition)
         if self._debugger.halt is not None:
             self._debugger.step("continue", drive.author)
+        else:
+            self._debugger.forget_step()
         return f"continue: {self._pacer.target}" if self._pacer.target else "continue"
 
     def _scan_on(self) -> Refusal | None:
@@ -253,6 +255,7 @@ class Driving:
                 debugger.forget_step()
             self._services.past_by = self._services.past_by or step.author
         elif action == "continue" and runs:
+            debugger.forget_step()
             self._answers.ack(step.ref, True, "it runs")
             return
         elif runs and action in ("over", "out", "scan"):

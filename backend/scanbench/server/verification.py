@@ -225,8 +225,7 @@ class Verification:
 
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
-            if event.state.state == "running":  # somebody lets it run: it does not wait because of this any more
-                self.hold.held = False
+            self.hold.seen(event.state.state)
             self._poke()
 
     def _poke(self) -> None:
@@ -339,6 +338,8 @@ class Verification:
         """Goes on by itself."""
 
         async def go_on() -> None:
+            if self.status.state in ("stopped", "done", "failed"):
+                return
             try:
                 await self._go_on(self.status.by)
                 self._poke()

@@ -199,6 +199,19 @@ def test_step_by_step_both_sides_stop_in_the_range_only(server: Server) -> None:
         assert [row["kind"] for row in found] == ["step", "step", "step", "pass", "step"]
 
 
+def test_a_plc_goes_on_when_stepping_is_stopped_on_the_way(server: Server) -> None:
+    instance = server.instance("stopped on the way", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        for _ in range(4):  # between two statements, or before one
+            browser.wait_state("running")
+            begun = begin(server, instance, pace="step")
+            assert server.http.patch(f"/api/verifications/{begun['id']}", json={"auto": True}).status_code == 200
+            browser.wait(lambda id=begun["id"]: info(server, instance, id)["rows"] > 2, 30)  # type: ignore[misc]
+            assert server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "stop"}).status_code == 200
+            stopped = server.state(instance)["scan"]
+            browser.wait(lambda scan=stopped: server.state(instance)["scan"] > scan + 20, 30)  # type: ignore[misc]
+
+
 UNREACHED = """\
 PROGRAM Main
 VAR n : INT; one : Ramp; END_VAR
