@@ -306,6 +306,23 @@ def last_outcome(server: Server, instance: int, kind: str) -> str:
     return found
 
 
+def test_two_plcs_have_the_same_port_at_addresses_of_their_own(server: Server) -> None:
+    port = 0
+    for number in (11, 12):  # of a client that cannot change its port
+        instance = server.instance(f"at {number}", MODEL, main=SOURCE)
+        wanted = {"on": True, "host": f"127.0.0.{number}", "port": port, "access": "write", "node": 1}
+        server.http.put(f"/api/instances/{instance}/communication/fins", json=wanted).raise_for_status()
+        host, _, at = seen(server, instance, "fins")["address"].rpartition(":")
+        assert (host, int(at)) == (f"127.0.0.{number}", port or int(at))
+        port = int(at)
+    for number in (11, 12):
+        client = FinsClient(f"127.0.0.{number}", port, timeout=PATIENCE_S)
+        client.connect()
+        assert client.memory_area_write("D100", bytes((0, number))).code == b"\0\0"
+        assert words(client.memory_area_read("D100")) == [number]
+        client.close()
+
+
 def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
     instance = server.instance("line", MODEL, main=SOURCE)
     port = switch_on(server, instance, "fins")
