@@ -110,6 +110,9 @@ test('by keyboard alone: tour, editor, operator panel, error simulator, debugger
     await expect(mika.debug.haltedLine('Main.st')).toBeVisible();
     await keyboard.press('F11');
     await expect(mika.debug.frames).toHaveCount(2);
+    // The block's file opens, and takes the focus.
+    await expect(mika.debug.haltedLine('Belt.st')).toBeVisible();
+    await expect(mika.editor('Belt.st').text).toBeFocused();
     await toRow(page, mika.debug.section('Call stack').getByRole('tree'), mika.debug.frames.nth(1), 'debug');
     await keyboard.press('Enter');
     await keyboard.press('Shift+F11');
