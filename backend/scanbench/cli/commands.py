@@ -5,7 +5,6 @@ from importlib import import_module
 from typing import cast
 
 import typer
-from typer._click import Context
 from typer.core import TyperCommand, TyperGroup
 
 from scanbench import __version__
@@ -46,10 +45,10 @@ class _Group(TyperGroup):
     def __init__(self, **given: object) -> None:
         super().__init__(**{**given, "commands": _Commands()})  # type: ignore[arg-type]
 
-    def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
+    def parse_args(self, ctx: object, args: list[str]) -> list[str]:
         """Before anything is refused."""
         begin_junit(args)
-        return super().parse_args(ctx, args)
+        return super().parse_args(cast(typer.Context, ctx), args)
 
     def list_commands(self, ctx: object) -> list[str]:
         """Their names: to know them is not to import them."""

@@ -46,14 +46,8 @@ class Publisher:
     def __init__(
         self, plc: Plc, wanted: MqttWanted, secrets: Secrets, desk: Desk, name: str, tell: Callable[[str], None]
     ) -> None:
-        self._plc, self._wanted, self._secrets, self._desk, self._name, self._tell = (
-            plc,
-            wanted,
-            secrets,
-            desk,
-            name,
-            tell,
-        )
+        self._plc, self._wanted, self._secrets = plc, wanted, secrets
+        self._desk, self._name, self._tell = desk, name, tell
         self._node = topic_name(plc.name)
         self._chosen: Chosen | None = None
         self._births = -1
