@@ -40,7 +40,7 @@ help:
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames; and a large ladder"
-	@echo "make fuzz    compare the engines on fresh random programs and drawings, N of each kind (N=100000, SEED=1 to begin with)"
+	@echo "make fuzz    compare the engines on fresh random programs, and on ladders, diagrams and charts: N of each (N=100000, SEED=1 to begin with)"
 	@echo "make features  write the pages of docs/ that are generated (features, standard library, REST API), and the shapes of the client"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
@@ -84,8 +84,7 @@ N ?= 10000
 SEED ?=
 fuzz: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
-	@cd backend && SCANBENCH_EXPLORE=1 SCANBENCH_EXAMPLES=$(or $(N),1000) $(BIN)/python $(PYTEST) $(if $(SEED),--hypothesis-seed=$(SEED)) \
-	  tests/test_random_ladder.py tests/test_random_diagrams.py tests/test_random_charts.py
+	@cd backend && $(BIN)/python -m tests.drawings $(N) $(SEED)
 
 features: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page && $(BIN)/python -m tests.client_shapes

@@ -10,8 +10,6 @@ from typing import TypeVar
 import pytest
 
 NIGHTLY = bool(os.environ.get("SCANBENCH_NIGHTLY"))
-EXAMPLES = int(os.environ.get("SCANBENCH_EXAMPLES", "0"))
-"""So many, whatever the test says: `make fuzz N=...`."""
 nightly = pytest.mark.nightly
 """Of what this test compares, `make nightly` compares more."""
 slow = pytest.mark.slow
@@ -21,7 +19,7 @@ _T = TypeVar("_T")
 
 def amount(all: int, quick: int) -> int:
     """So many programs, runs, or examples of hypothesis."""
-    return EXAMPLES or (all if NIGHTLY else quick)
+    return all if NIGHTLY else quick
 
 
 def some(everything: Sequence[_T], each: int, first: int = 0) -> Sequence[_T]:

@@ -20,7 +20,8 @@ from tests.caseformat import read_cases, write
 from tests.debug.scenes import checked
 from tests.debug.test_walks import BUILDS, ENGINES
 from tests.debug.walking import MakeDebug, Walker
-from tests.test_random_ladder import VARIABLES, Run, State, diagrams
+from tests.drawings.draws import of
+from tests.drawings.ladder import VARIABLES, Run, State, diagram
 
 MAIN = FlowAsked("Main", "Main")
 CONTACT = re.compile(r"\[/?[\w.]+\]")
@@ -68,7 +69,7 @@ def said(flow: Flow, line: int, number: int = 0) -> dict[str, str]:
 
 @ENGINES
 @settings(max_examples=amount(300, 10), deadline=None)
-@given(diagrams())
+@given(of(diagram))
 def test_power_and_values_are_those_of_a_straightforward_evaluation(
     make: MakeDebug, made: tuple[str, list[Run], list[dict[str, bool]]]
 ) -> None:

@@ -13,9 +13,10 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.server.samples import templates
 from scanbench.syntax.plcopen.project import read_project
 from scanbench.syntax.plcopen.write import Form, write_project
-from tests import test_random_charts, test_random_diagrams, test_random_ladder
 from tests.amounts import amount
 from tests.caseformat import MODELS, Case, find, read_cases, run_case, write
+from tests.drawings import charts, diagrams, ladder
+from tests.drawings.draws import of
 
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
 CASES = Path(__file__).parent.parent.parent / "cases"
@@ -121,22 +122,22 @@ def same(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> None:
 
 
 @settings(max_examples=amount(300, 10), deadline=None)
-@given(test_random_ladder.diagrams())
+@given(of(ladder.diagram))
 def test_random_ladders_compute_the_same(made: tuple[str, object, list[dict[str, bool]]]) -> None:
     source, _, sets = made
     same(
         source,
         [{name: str(value).upper() for name, value in each.items()} for each in sets],
-        test_random_ladder.VARIABLES,
+        ladder.VARIABLES,
     )
 
 
 @settings(max_examples=amount(300, 10), deadline=None)
-@given(test_random_diagrams.diagrams())
+@given(of(diagrams.diagram))
 def test_random_diagrams_compute_the_same(made: tuple[str, object, list[dict[str, int]], list[str]]) -> None:
     source, _, sets, loops = made
     assume(not loops)
-    bools, ints = test_random_diagrams.BOOLS, test_random_diagrams.INTS
+    bools, ints = diagrams.BOOLS, diagrams.INTS
     written = [
         {name: str(bool(value)).upper() if name in bools else str(value) for name, value in each.items()}
         for each in sets
@@ -145,12 +146,12 @@ def test_random_diagrams_compute_the_same(made: tuple[str, object, list[dict[str
 
 
 @settings(max_examples=amount(300, 10), deadline=None)
-@given(test_random_charts.charts())
-def test_random_charts_go_the_same_way(made: tuple[test_random_charts.Machine, list[dict[str, int]]]) -> None:
+@given(of(charts.chart))
+def test_random_charts_go_the_same_way(made: tuple[charts.Machine, list[dict[str, int]]]) -> None:
     machine, sets = made
     written = [{name: str(bool(value)).upper() for name, value in each.items()} for each in sets]
     steps = (f"S{number}.{part}" for number in range(len(machine.steps)) for part in "XT")
-    same(test_random_charts.text_of(machine), written, [*test_random_charts.OUTPUTS, *steps])
+    same(charts.text_of(machine), written, [*charts.OUTPUTS, *steps])
 
 
 @pytest.mark.parametrize(

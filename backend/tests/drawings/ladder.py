@@ -1,13 +1,10 @@
-"""Random ladder diagrams: both engines leave the same bytes, and what a straightforward evaluation of the rungs computes."""
+"""Random ladder diagrams, with what a straightforward evaluation of the rungs computes."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from hypothesis import given, settings
-from hypothesis import strategies as st
-
-from tests.amounts import amount
-from tests.batches import Drawn, collect
+from tests.drawings.drawn import Drawn, Evaluate, Values
+from tests.drawings.draws import Draws
 
 VARIABLES = tuple("abcdefgh")
 SCANS = 6
@@ -34,13 +31,13 @@ Run = Callable[[State, bool], bool | None]
 class Maker:
     """Draws rungs: the text and its meaning side by side."""
 
-    draw: st.DrawFn
+    draws: Draws
     numbers: Iterator[int]
     sent: list[str] = field(default_factory=list)
     """Links of the rung that are sure to have their power."""
 
     def path(self, depth: int) -> tuple[str, Run]:
-        parts = [self.element(depth) for _ in range(self.draw(st.integers(0 if depth < 3 else 1, 4)))]
+        parts = [self.element(depth) for _ in range(self.draws.integer(0 if depth < 3 else 1, 4))]
 
         def run(state: State, power: bool) -> bool | None:
             for _, each in parts:
@@ -52,25 +49,25 @@ class Maker:
         return " ".join(text for text, _ in parts), run
 
     def element(self, depth: int) -> tuple[str, Run]:
-        kind = self.draw(st.sampled_from(["contact", "contact", "coil", "parallel", "link"]))
+        kind = self.draws.one(["contact", "contact", "coil", "parallel", "link"])
         if kind == "parallel" and depth:
             return self.parallel(depth)
         if kind == "link" and self.sent:
-            name = self.draw(st.sampled_from(self.sent))
+            name = self.draws.one(self.sent)
             return f"#{name}", lambda state, power: power and state.links[name]
-        name = self.draw(st.sampled_from(VARIABLES))
+        name = self.draws.one(VARIABLES)
         if kind == "coil":
-            mode = self.draw(st.sampled_from(["", "/", "S ", "R ", "P ", "N "]))
+            mode = self.draws.one(["", "/", "S ", "R ", "P ", "N "])
             return f"({mode}{name})", self._coil(mode.strip(), name)
-        mode = self.draw(st.sampled_from(["", "/", "P ", "N "]))
+        mode = self.draws.one(["", "/", "P ", "N "])
         return f"[{mode}{name}]", self._contact(mode.strip(), name)
 
     def parallel(self, depth: int) -> tuple[str, Run]:
         branches: list[tuple[str, Run]] = []
         before = list(self.sent)
-        for _ in range(self.draw(st.integers(1, 3))):
+        for _ in range(self.draws.integer(1, 3)):
             text, run = self.path(depth - 1)
-            if branches and self.draw(st.integers(0, 3)) == 0:
+            if branches and self.draws.integer(0, 3) == 0:
                 name = f"w{next(self.numbers)}"
                 text, run = f"{text} -> #{name}", self._sending(run, name)
                 before.append(name)
@@ -123,37 +120,35 @@ class Maker:
         return run
 
 
-@st.composite
-def diagrams(draw: st.DrawFn) -> tuple[str, list[Run], list[dict[str, bool]]]:
+def diagram(draws: Draws) -> tuple[str, list[Run], list[dict[str, bool]]]:
     """The text, the meaning of each rung, and what is written before each scan."""
     numbers = iter(range(10_000))
     texts, runs = [], []
-    for _ in range(draw(st.integers(1, 12))):
-        text, run = Maker(draw, numbers).path(3)
+    for _ in range(draws.integer(1, 12)):
+        text, run = Maker(draws, numbers).path(3)
         texts.append(f"RUNG\n    {text}\nEND_RUNG\n")
         runs.append(run)
-    sets = draw(st.lists(st.dictionaries(st.sampled_from(VARIABLES), st.booleans()), min_size=SCANS, max_size=SCANS))
+    sets = [
+        {name: bool(value) for name, value in draws.values(dict.fromkeys(VARIABLES, (0, 1))).items()}
+        for _ in range(SCANS)
+    ]
     source = f"PROGRAM Main\nVAR {', '.join(VARIABLES)} : BOOL; END_VAR\n{''.join(texts)}END_PROGRAM\n"
     return source, runs, sets
 
 
-def drawn(made: tuple[str, list[Run], list[dict[str, bool]]]) -> Drawn:
-    source, runs, sets = made
-    state = State(dict.fromkeys(VARIABLES, False))
+def drawn(draws: Draws) -> Drawn:
+    source, runs, sets = diagram(draws)
 
-    def expected(scan: int) -> dict[str, str]:
-        state.values.update(sets[scan])
-        for run in runs:
-            run(state, True)
-        return {name: str(value).upper() for name, value in state.values.items()}
+    def begin() -> Evaluate:
+        state = State(dict.fromkeys(VARIABLES, False))
 
-    return Drawn(source, [{name: str(value).upper() for name, value in each.items()} for each in sets], expected)
+        def evaluate(_: int, written: Values) -> Values:
+            state.values.update((name, bool(value)) for name, value in written.items())
+            state.noted.clear()
+            for run in runs:
+                run(state, True)
+            return {name: int(value) for name, value in state.values.items()}
 
+        return evaluate
 
-BATCH: list[Drawn] = []
-
-
-@settings(max_examples=amount(1000, 25), deadline=None)
-@given(diagrams())
-def test_the_engines_and_the_evaluation_agree(made: tuple[str, list[Run], list[dict[str, bool]]]) -> None:
-    collect(BATCH, drawn(made))
+    return Drawn(source, [{name: int(value) for name, value in each.items()} for each in sets], begin)
