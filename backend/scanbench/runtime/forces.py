@@ -61,10 +61,15 @@ class Force(Naming):
         number = holder(view.journal, patch)
         if number:
             return Refusal(f"{self.path} is held by disturbance {number}: take that back first")
+        before = forced.forces.get(_key(self.path))
         forced.hold(self, patch)
         if len(forced.table) > Layout.FORCE_LIMIT:
             return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
-        return Plan(everywhere(view, patch), f"{target.shown} forced to {self.value.strip()}")
+        value = self.value.strip()
+        if before is not None and before.author != self.author:
+            said = f"{target.shown} forced to {value}; {before.author} held it at {before.value.strip()}"
+            return Plan(everywhere(view, patch), said)
+        return Plan(everywhere(view, patch), f"{target.shown} forced to {value}")
 
     def bits(self, view: View) -> Patch | Refusal:
         """Which bits of this image it holds, at which values."""

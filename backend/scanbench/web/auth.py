@@ -83,6 +83,9 @@ class Guard:
                     scope, receive, send, 401, "the token is missing or wrong: open the address that was printed"
                 )
                 return
+            if len(connection.query_params.get(USER, "")) > _NAME_LENGTH:
+                await _refuse(scope, receive, send, 400, f"{USER} has more than {_NAME_LENGTH} characters")
+                return
         elif scope["type"] == "http" and is_page(scope["path"]):
             page = self._entrance(connection)
             if page is not None:

@@ -116,3 +116,13 @@ def test_both_engines_note_the_same() -> None:
             resource.run(1)
         assert resources[0].state == resources[1].state
         assert forced_values(resources[0].view) == forced_values(resources[1].view)
+
+
+def test_who_forces_over_the_force_of_somebody_else_says_whose_it_was() -> None:
+    resource = plc(ReferenceEngine)
+    said = []
+    for author, number in (("Mika", "1"), ("Mika", "2"), ("Aki", "3")):
+        outcome = resource.submit(Force(author, "level", number))
+        assert isinstance(outcome, Entry), outcome
+        said.append(outcome.plan.message)
+    assert said == ["level forced to 1", "level forced to 2", "level forced to 3; Mika held it at 2"]

@@ -105,6 +105,12 @@ def test_without_the_token_there_is_a_field_for_it_that_leads_on(server: Server)
     assert "トークン" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}, timeout=PATIENCE_S).text
 
 
+def test_a_name_that_is_too_long_is_refused_not_cut(server: Server) -> None:
+    answer = server.http.get("/api", params={"scanbench_user": "x" * 41})
+    assert (answer.status_code, answer.json()["message"]) == (400, "scanbench_user has more than 40 characters")
+    assert server.http.get("/api", params={"scanbench_user": "x" * 40}).json()["you"]["name"] == "x" * 40
+
+
 def test_the_field_for_the_token_cannot_be_made_to_say_something_else(server: Server) -> None:
     page = httpx.get(f'{server.base}/i/"><script>1</script>', params={'"><script>': '"><script>'}, timeout=PATIENCE_S)
     assert page.status_code == 401

@@ -13,6 +13,8 @@ interface Props {
   initial?: string;
   /** The message for an empty name. */
   missing?: string;
+  /** Characters at most. */
+  longest?: number;
   /** Throws the refusal, which is shown below the field. */
   onName: (name: string) => Promise<void>;
   onClose: () => void;
@@ -26,6 +28,7 @@ export function AskName({
   action,
   initial = "",
   missing = t("name.missing"),
+  longest = Number.POSITIVE_INFINITY,
   onName,
   children,
   ...frame
@@ -35,6 +38,7 @@ export function AskName({
 
   async function submit(): Promise<void> {
     if (name.trim() === "") throw new Error(missing);
+    if (name.trim().length > longest) throw new Error(t("name.long", { longest, length: name.trim().length }));
     await onName(name.trim());
   }
 

@@ -17,6 +17,14 @@ export interface Columns {
   th: (column: string, name: string, className?: string) => ReactNode;
 }
 
+/** Pixels of a letter of the code font, the wider one, and those of a cell's padding. */
+const LETTER = 7.3;
+const PADDING = 20;
+
+/** What the longest of these texts needs in a column: rows that are grids of their own cannot find out together. */
+export const roomFor = (texts: readonly string[]): string =>
+  `${Math.ceil(texts.reduce((longest, text) => Math.max(longest, text.length), 0) * LETTER + PADDING)}px`;
+
 /**
  * Columns that can be made wider and narrower. A style sheet uses a chosen width as a track, `var(--w-at, 84px)`: where the table is too
  * narrow for all of them, each gives way, and the last column has what is left. Tables whose cells decide their width use `var(--px-at)`.

@@ -10,7 +10,7 @@ export const LONGEST_NAME = 40;
 /** Takes effect with a new connection. */
 export async function chooseName(name: string): Promise<void> {
   // biome-ignore lint/suspicious/noDocumentCookie: the Cookie Store API needs a secure context, and the server is often reached by HTTP
-  document.cookie = `${COOKIE}=${encodeURIComponent(name.slice(0, LONGEST_NAME))}; path=/; max-age=${YEAR}; samesite=lax`;
+  document.cookie = `${COOKIE}=${encodeURIComponent(name)}; path=/; max-age=${YEAR}; samesite=lax`;
   keepName();
   await refreshApp();
   const { instance } = useBench.getState();

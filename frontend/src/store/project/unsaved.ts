@@ -42,7 +42,7 @@ export async function saveAll(): Promise<string | null> {
   return null;
 }
 
-async function refreshUnsaved(): Promise<void> {
+export async function refreshUnsaved(): Promise<void> {
   const { project } = useDocuments.getState();
   if (project === null) return;
   const drafts = await rest.unsaved(project);

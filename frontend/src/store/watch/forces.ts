@@ -2,6 +2,7 @@
 
 import { create } from "zustand";
 import type { ForceInfo } from "../../wire/types";
+import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 
 interface WrittenBy {
@@ -12,14 +13,26 @@ interface WrittenBy {
 /** What a force did in the last scan: it changes all the time, so it is stored separately. */
 type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
+/** A force of yours that somebody else replaced. */
+export interface Taken {
+  path: string;
+  by: string;
+  value: string;
+  mine: string;
+}
+
 interface Forces {
   held: ReadonlyMap<string, ForceInfo>;
   written: ReadonlyMap<string, WrittenBy>;
+  /** By path, until you have read it. */
+  taken: ReadonlyMap<string, Taken>;
 }
 
-export const useForces = create<Forces>(() => ({ held: new Map(), written: new Map() }));
+const NONE: Forces = { held: new Map(), written: new Map(), taken: new Map() };
 
-export function forceOf(forces: Forces, path: string): ForceInfo | undefined {
+export const useForces = create<Forces>(() => NONE);
+
+export function forceOf(forces: Pick<Forces, "held">, path: string): ForceInfo | undefined {
   return forces.held.get(path.toUpperCase());
 }
 
@@ -42,11 +55,32 @@ export function onForces(forces: readonly ForceInfo[]): void {
     // A force on an in-out holds the variable that was passed: both rows are marked.
     for (const path of [force.through, force.path]) if (path) held.set(path.toUpperCase(), force);
   }
-  useForces.setState({ held });
+  useForces.setState(({ held: before, taken }) => ({ held, taken: takenNow(before, forces, taken) }));
+}
+
+function takenNow(before: Forces["held"], forces: readonly ForceInfo[], known: Forces["taken"]): Forces["taken"] {
+  const you = usePlc.getState().you?.name;
+  const taken = new Map(known);
+  for (const { path, author, value } of forces) {
+    const was = before.get(path.toUpperCase());
+    if (author === you) taken.delete(path);
+    else if (was && was.author === you) taken.set(path, { path, by: author, value, mine: was.value });
+  }
+  return taken;
+}
+
+export function forgetTaken(path: string): void {
+  useForces.setState(({ taken }) => ({ taken: new Map([...taken].filter(([key]) => key !== path)) }));
+}
+
+/** The force there, if somebody else made it. */
+export function heldByOther(path: string): ForceInfo | undefined {
+  const force = forcedAt(path);
+  return force?.author === usePlc.getState().you?.name ? undefined : force;
 }
 
 export function onWritten(path: string, author: string, scan: number): void {
   useForces.setState((state) => ({ written: new Map(state.written).set(path, { author, scan }) }));
 }
 
-onInstanceChange(() => useForces.setState({ held: new Map(), written: new Map() }));
+onInstanceChange(() => useForces.setState(NONE));

@@ -59,6 +59,7 @@ export const common = {
   "log.whole": "Whole log",
   "log.whole.hint": "Reads everything that happened to this PLC, page by page",
   "menu.label": "Actions",
+  "name.long": "A name has at most {longest} characters, this one has {length}.",
   "name.missing": "Enter a name.",
   notknown: "Not known.",
   "watch.outside": "Written.",

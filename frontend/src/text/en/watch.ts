@@ -2,9 +2,13 @@
 export const watch = {
   "force.column": "Forced",
   "force.count": "{count} forced",
+  "force.held": "held by {author}: {value}",
   "force.release": "Release force",
   "force.release.path": "Release force of {path}",
   "force.releaseall": "Release all forces",
+  "force.taken": "{by} forced {path} to {value}. You held it at {mine}.",
+  "force.taken.label": "Your force was replaced",
+  "force.taken.read": "Close",
   "force.to": "Force to {value}",
   forced: "Forced",
   "format.binary": "Binary",

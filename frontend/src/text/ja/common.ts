@@ -61,6 +61,7 @@ export const common: Record<keyof typeof english, string> = {
   "log.whole": "全履歴",
   "log.whole.hint": "この PLC の全イベントをページ単位で表示します",
   "menu.label": "操作",
+  "name.long": "名前は {longest} 文字までです。入力は {length} 文字です。",
   "name.missing": "名前を入れてください。",
   notknown: "不明です。",
   "watch.outside": "書き込みました。",

@@ -184,7 +184,10 @@ export const project: Record<keyof typeof english, string> = {
   "file.delete.about": "全員から削除され、元に戻せません。",
   "file.delete.hint": "実行中のプログラムは次のビルドまで変わりません。",
   "file.delete.here": "現在このファイルを開いている人：{names}。未保存の内容はその人のエディターに残ります。",
+  "file.delete.here.unsaved":
+    "現在このファイルを開いている人：{names}。未保存の内容があり、その人のエディターに残ります。",
   "file.delete.menu": "{path} を削除…",
+  "file.delete.unsaved": "だれも保存していない内容があります。それも削除されます。",
   "file.delete.title": "{path} を削除",
   "file.gone": "このプロジェクトにファイル {path} はありません。削除されたか、別のプロジェクトのものです。",
   "file.kind": "種類",

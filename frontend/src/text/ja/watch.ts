@@ -4,9 +4,13 @@ import type { watch as english } from "../en/watch";
 export const watch: Record<keyof typeof english, string> = {
   "force.column": "強制",
   "force.count": "強制 {count}",
+  "force.held": "{author} が {value} に強制中",
   "force.release": "強制解除",
   "force.release.path": "{path} の強制を解除",
   "force.releaseall": "強制をすべて解除",
+  "force.taken": "{by} が {path} を {value} に強制しました。それまではあなたが {mine} に強制していました。",
+  "force.taken.label": "あなたの強制が置き換えられました",
+  "force.taken.read": "閉じる",
   "force.to": "{value} に強制",
   forced: "強制中",
   "format.binary": "2 進",

@@ -5,6 +5,7 @@ import { folderEntry } from "../../../testing/folder";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
 import type { FileInfo } from "../../../wire/types";
+import { DeleteFile } from "./DeleteFile";
 import { Explorer } from "./Explorer";
 
 async function openExplorer() {
@@ -125,4 +126,16 @@ test("tasks are listed with how often they run and what; a task leads to its dec
   await user.dblClick(row);
   await user.dblClick(screen.getByRole("treeitem", { name: /^second/ }));
   expect([...new Set(places)]).toEqual(["file plant.st", "file Belt.st"]);
+});
+
+test("who deletes a file sees before who is in it, and that it has text that is not saved", async () => {
+  const { server } = await openExplorer();
+  const at = { initials: "A", colour: 1, instance: 1, line: 1, anchor: null, head: "x" };
+  server.on("GET", "/projects/*/unsaved", () => ["Main.st"]);
+  render(<DeleteFile path="Main.st" onClose={() => undefined} />);
+  const asking = await screen.findByRole("dialog", { name: t("file.delete.title", { path: "Main.st" }) });
+  await waitFor(() => expect(textOf(asking)).toContain(t("file.delete.unsaved")));
+  server.say({ type: "people", you: 1, people: [{ ...at, id: 2, name: "Aki", file: "Main.st" }] });
+  await waitFor(() => expect(textOf(asking)).toContain(t("file.delete.here.unsaved", { names: "Aki" })));
+  expect(textOf(asking)).not.toContain(t("file.delete.unsaved"));
 });

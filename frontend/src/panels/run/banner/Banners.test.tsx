@@ -234,3 +234,26 @@ test("who is at a PLC that somebody deletes is told so, by whom, and is led to a
   await waitFor(() => expect(useBench.getState().instance?.id).toBe(8));
   expect(screen.queryByRole("alert")).toBeNull();
 });
+
+test("a force of yours that somebody else replaces is told, until you have read it or force again", async () => {
+  const { server, user } = await openBanners();
+  const held = (author: string, value: string) =>
+    server.say({
+      type: "forces",
+      forces: [{ path: "Main.motor", through: "", value, author, scan: 5, before: "", after_program: "", after: "" }],
+    });
+  held("Jo", "TRUE");
+  held("Mika", "TRUE");
+  held("Mika", "FALSE");
+  held("Mika", "TRUE");
+  held("Aki", "FALSE");
+  const said = t("force.taken", { by: "Aki", path: "Main.motor", value: "FALSE", mine: "TRUE" });
+  await screen.findByText(said);
+  await user.click(button(t("force.taken.read")));
+  await waitFor(() => expect(screen.queryByText(said)).toBeNull());
+  held("Mika", "TRUE");
+  held("Aki", "FALSE");
+  await screen.findByText(said);
+  held("Mika", "TRUE");
+  await waitFor(() => expect(screen.queryByText(said)).toBeNull());
+});

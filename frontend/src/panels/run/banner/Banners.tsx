@@ -13,10 +13,11 @@ import { RecordingBanner } from "./RecordingBanner";
 import { RerunBanners } from "./RerunBanner";
 import { RestartingBanner } from "./RestartingBanner";
 import { SpaceBanner } from "./SpaceBanner";
+import { TakenBanner } from "./TakenBanner";
 import { TrapBanner } from "./TrapBanner";
 
 /** At most one banner about the PLC, the most severe: no connection, then a stop; and one about its recording. Below: the link that was
- * opened, whom one follows, one's name, and replays of the run. */
+ * opened, whom one follows, forces that others replaced, one's name, and replays of the run. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
   if (link.state === "lost") return <LostBanner link={link} />;
@@ -27,6 +28,7 @@ export function Banners() {
       <AloneBanner />
       <LinkBanner />
       <FollowBanner />
+      <TakenBanner />
       <NameBanner />
       <RerunBanners />
     </>

@@ -12,6 +12,7 @@ export function NameBanner() {
   const [done, setDone] = useState(isNameKept);
   const [name, setName] = useState("");
   if (done || !others || !isGuest(you)) return null;
+  const length = name.trim().length;
   const stay = () => {
     keepName();
     setDone(true);
@@ -22,7 +23,7 @@ export function NameBanner() {
       aria-label={t("name.title")}
       onSubmit={(event) => {
         event.preventDefault();
-        if (name.trim() !== "") void chooseName(name.trim()).then(() => setDone(true));
+        if (length > 0 && length <= LONGEST_NAME) void chooseName(name.trim()).then(() => setDone(true));
       }}
     >
       <Icon name="users" />
@@ -33,12 +34,17 @@ export function NameBanner() {
         className="inp sm"
         aria-label={t("name.label")}
         placeholder={t("name.label")}
-        maxLength={LONGEST_NAME}
+        aria-invalid={length > LONGEST_NAME}
         autoComplete="name"
         value={name}
         onChange={({ target }) => setName(target.value)}
       />
-      <button type="submit" className="btn sm" disabled={name.trim() === ""}>
+      {length > LONGEST_NAME && (
+        <span className="hint bad" role="alert">
+          {t("name.long", { longest: LONGEST_NAME, length })}
+        </span>
+      )}
+      <button type="submit" className="btn sm" disabled={length === 0 || length > LONGEST_NAME}>
         {t("name.use")}
       </button>
       <button type="button" className="btn quiet sm" onClick={stay}>

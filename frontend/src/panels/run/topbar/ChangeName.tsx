@@ -1,4 +1,4 @@
-import { chooseName } from "../../../store/plc/name";
+import { chooseName, LONGEST_NAME } from "../../../store/plc/name";
 import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 
@@ -11,6 +11,7 @@ export function ChangeName({ name, onClose }: { name: string; onClose: () => voi
       label={t("name.label")}
       action={t("name.use")}
       initial={name}
+      longest={LONGEST_NAME}
       onName={chooseName}
       onClose={onClose}
     />

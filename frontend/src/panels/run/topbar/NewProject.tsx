@@ -18,6 +18,9 @@ interface Props {
 }
 
 /** Asks for the name, the PLC model and the first instance of a new project. */
+/** Characters that a name has at most, as the server wants it. */
+const LONGEST = 100;
+
 export function NewProject({ dropped = null, onClose }: Props) {
   const [models, setModels] = useState<readonly ModelSummary[]>([]);
   const [name, setName] = useState("");
@@ -56,8 +59,11 @@ export function NewProject({ dropped = null, onClose }: Props) {
       return false;
     }
     const [project, first] = [name.trim(), instance.trim()];
-    setWrongInstance(project !== "" && (first === "" || isTaken(first)));
+    const wrong = (name: string) => name === "" || name.length > LONGEST;
+    setWrongInstance(!wrong(project) && (wrong(first) || isTaken(first)));
     if (project === "" || first === "") throw new Error(t("name.missing"));
+    const { length = 0 } = [project, first].find((each) => each.length > LONGEST) ?? {};
+    if (length > 0) throw new Error(t("name.long", { longest: LONGEST, length }));
     // Checked before anything is created: otherwise a project without an instance would remain after a failure.
     if (isTaken(first)) throw new Error(t("newproject.taken", { name: first }));
     await createProject(project, model, first, typeof archive === "object" ? archive.file : template);

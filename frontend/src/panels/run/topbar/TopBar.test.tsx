@@ -191,3 +191,13 @@ test("at the head is the version that the PLC runs, not the newest of the projec
   const version = t("picker.about", { model, version: project.version + 3 });
   await waitFor(() => expect(textOf(button(t("picker.label")))).toContain(version));
 });
+
+test("a name that is too long is not cut, but refused with how long it may be", async () => {
+  const { user } = await openBar();
+  await choose(user, t("people.menu", { name: "Mika" }), t("name.menu"));
+  const asking = await dialog(t("name.title"));
+  await user.clear(box(t("name.label"), asking));
+  await user.type(box(t("name.label"), asking), `${"a".repeat(41)}{Enter}`);
+  expect(textOf(asking)).toContain(t("name.long", { longest: 40, length: 41 }));
+  expect(document.cookie).not.toContain("aaaa");
+});

@@ -4,7 +4,7 @@ import { openFile } from "../../../store/page/navigate";
 import { useOnline, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
-import { useColumns } from "../../../ui/useColumns";
+import { roomFor, useColumns } from "../../../ui/useColumns";
 import { send } from "../../../wire/send";
 import type { Violation } from "../../../wire/types";
 
@@ -48,8 +48,9 @@ const LOOK = { what: "", instance: "", times: "num", scans: "num scans" };
 
 function List({ violations }: { violations: readonly Violation[] }) {
   const { style, grip } = useColumns(useWidths("diagnostics"));
+  const room = { "--scans": roomFor(violations.map(scansOf)), "--place": roomFor(violations.map(placeOf)) };
   return (
-    <div className="grid scroll problems violations" data-columns style={style}>
+    <div className="grid scroll problems violations" data-columns style={{ ...style, ...room }}>
       <div className="gr h">
         {(["what", "instance", "times", "scans"] as const).map((column) => (
           <span key={column} className={LOOK[column]}>
@@ -81,10 +82,15 @@ function inWords(violation: Violation): string {
   return t("diagnostics.outside", { variable, value, low, high });
 }
 
+const placeOf = ({ file, line, column }: Violation) => `${file}:${line}:${column}`;
+
+const scansOf = ({ first_scan: first, last_scan: last }: Violation) =>
+  first === last ? grouped(first) : `${grouped(first)}–${grouped(last)}`;
+
 function Row({ violation }: { violation: Violation }) {
-  const { file, line, column, first_scan: first, last_scan: last } = violation;
+  const { file, line, column } = violation;
   const text = inWords(violation);
-  const scans = first === last ? grouped(first) : `${grouped(first)}–${grouped(last)}`;
+  const scans = scansOf(violation);
   return (
     <button type="button" className="gr" onClick={() => openFile(file, line, column)}>
       <span className="st warning cut" title={text}>
@@ -98,7 +104,9 @@ function Row({ violation }: { violation: Violation }) {
         {grouped(violation.times)}
       </span>
       <span className="num mono muted scans">{scans}</span>
-      <span className="mono muted cut">{`${file}:${line}:${column}`}</span>
+      <span className="mono muted cut" title={placeOf(violation)}>
+        {placeOf(violation)}
+      </span>
     </button>
   );
 }

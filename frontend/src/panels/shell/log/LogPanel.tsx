@@ -9,7 +9,7 @@ import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { MenuButton } from "../../../ui/Menu";
-import { useColumns } from "../../../ui/useColumns";
+import { roomFor, useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import type { ErrorInfo, LogLine } from "../../../wire/types";
 
@@ -136,6 +136,7 @@ function Lines({ log }: { log: readonly LogLine[] }) {
   const grid = useGrid({ count: log.length });
   const onScroll = useFollow(grid.scroll, log);
   const { style, head } = useColumns(useWidths("log"));
+  const by = useMemo(() => roomFor(log.map(({ author }) => author)), [log]);
   return (
     <div
       ref={grid.scroll}
@@ -145,7 +146,7 @@ function Lines({ log }: { log: readonly LogLine[] }) {
       aria-rowcount={log.length + 1}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
-      style={style}
+      style={{ ...style, ["--by" as string]: by }}
       onScroll={onScroll}
     >
       <div className="gr h" role="row">
@@ -224,7 +225,7 @@ function Line({ line, errors, start, index }: LineProps) {
       <span role="cell" className="cut" title={text}>
         {text}
       </span>
-      <span role="cell" className="muted cut">
+      <span role="cell" className="muted cut" title={line.author}>
         {line.author}
       </span>
     </div>

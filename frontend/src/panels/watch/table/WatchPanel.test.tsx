@@ -143,3 +143,23 @@ test.each([
     expect(menuItem(label)).toHaveProperty("disabled", true);
   expect(server.sentOf("write")).toEqual([]);
 });
+
+test("the menu says whose force would be replaced", async () => {
+  const { server, user } = await openTable(["start"], (server) => server.has(symbol("start", "BOOL")));
+  await shows("start", "FALSE");
+  const held = (author: string) =>
+    server.say({
+      type: "forces",
+      forces: [
+        { path: "start", through: "", value: "TRUE", author, scan: 5, before: "", after_program: "", after: "" },
+      ],
+    });
+  const hint = t("force.held", { author: "Aki", value: "TRUE" });
+  held("Aki");
+  await user.pointer({ keys: "[MouseRight]", target: line("start") as Element });
+  expect(menuItem(t("force.to", { value: "FALSE" })).textContent).toContain(hint);
+  await user.keyboard("{Escape}");
+  held("Mika");
+  await user.pointer({ keys: "[MouseRight]", target: line("start") as Element });
+  expect(menuItem(t("force.to", { value: "FALSE" })).textContent).not.toContain(hint);
+});

@@ -11,7 +11,7 @@ import { showCrossReferencesOf } from "../../../store/project/cross";
 import { addToTrace } from "../../../store/trace/added";
 import { askDisturb } from "../../../store/verify/disturb";
 import { useBindings } from "../../../store/watch/bindings";
-import { forcedAt } from "../../../store/watch/forces";
+import { forcedAt, heldByOther } from "../../../store/watch/forces";
 import { showInMemory } from "../../../store/watch/memory";
 import {
   addToWatch,
@@ -82,12 +82,18 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
     {
       label: t("force.to", { value: shown }),
       icon: "forced",
-      hint: locked ? t(locked) : "F7",
+      hint: locked ? t(locked) : (whose(path) ?? "F7"),
       disabled: locked !== null || shown === "",
       onSelect: () => void force(path, root, shown),
     },
     ...releaseItems(row, locked),
   ];
+}
+
+/** Whose force it is that would be replaced. */
+function whose(path: string): string | undefined {
+  const other = heldByOther(path);
+  return other && t("force.held", other);
 }
 
 /** A BOOL has two values: the menu offers both, whatever the current one is. */
@@ -104,7 +110,7 @@ function boolItems({ path, root }: ValueRow, locked: TextKey | null): MenuItem[]
   const forces = BOOLS.map((value) => ({
     label: t("force.to", { value }),
     icon: "forced" as const,
-    hint: locked ? t(locked) : shown === value ? "F7" : undefined,
+    hint: locked ? t(locked) : (whose(path) ?? (shown === value ? "F7" : undefined)),
     disabled: locked !== null,
     onSelect: () => void force(path, root, value),
   }));

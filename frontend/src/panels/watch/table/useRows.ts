@@ -53,7 +53,7 @@ export function useRows(): readonly WatchRow[] {
         symbols,
         refusals,
         keyOf: (path, column) => keyOf(path, column, drafts),
-        isForced: (path) => forceOf({ held: forces, written: new Map() }, path) !== undefined,
+        isForced: (path) => forceOf({ held: forces }, path) !== undefined,
         hasChanged: (path) => hasChangedSince(path, since),
       }),
     [
