@@ -14,7 +14,7 @@ from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.server.going import GoingFiles
 from scanbench.server.history import Open
 from scanbench.session.session import Session
-from scanbench.store.records import NotFound
+from scanbench.store.records import NameTaken, NotFound
 from scanbench.wire.campaigns import CampaignCount, CampaignDone, CampaignState, RunCampaign, TrialDone
 from scanbench.wire.refused import Refused
 
@@ -24,6 +24,8 @@ KEPT = 10
 """Campaigns of an instance."""
 MOST = 2
 """At a time."""
+_OPENED = "{}, disturbance {}"
+"""The name of a PLC: names are the same in each language."""
 _TOLD_EVERY_NS = 250_000_000
 
 
@@ -42,6 +44,11 @@ class _Campaign:
     @property
     def over(self) -> bool:
         return self.task is None or self.task.done()
+
+    @property
+    def came_to_nothing(self) -> bool:
+        """Why is told until there is a next one."""
+        return self.state.over and self.state.message != "" and not self.trials
 
 
 class Campaigns:
@@ -104,10 +111,12 @@ class Campaigns:
         running = sum(not each.over for each in self._all.values())
         if running >= MOST:
             raise Refused(f"{running} campaigns go on already: wait for one, or cancel it")
-        mine = [id for id, each in self._all.items() if each.session is session and each.over]
-        for id in mine[: max(0, len(mine) - KEPT + 1)]:
-            del self._all[id]
-            self._going.forget(id)
+        over = [id for id, each in self._all.items() if each.session is session and each.over]
+        worth = [id for id in over if not self._all[id].came_to_nothing]
+        for id in over:
+            if id not in worth[-(KEPT - 1) :]:
+                del self._all[id]
+                self._going.forget(id)
         id, self._next = self._next, self._next + 1
         state = CampaignState(id, session.id, author, wanted, of=wanted.count)
         campaign = self._all[id] = _Campaign(session, state, str(run), until, begun)
@@ -144,13 +153,25 @@ class Campaigns:
                 CampaignDone,
                 on_part,
             )
-            name = f"{campaign.session.name} {number}"
-            return await self._open(campaign.session, name, to, author)
+            name = _OPENED.format(campaign.session.name, number)
+            session = await self._opened(campaign.session, name, to, author)
+            text = next((each.text for each in campaign.trials if each.number == number), "")
+            session.log.add(author, f"disturbance {number} of the campaign with seed {wanted.seed}: {text}")
+            return session
         finally:
             await asyncio.to_thread(to.unlink, True)
 
+    async def _opened(self, origin: Session, name: str, path: Path, author: str) -> Session:
+        """The PLC under this name, or the next one that is free: the same disturbance can be opened twice."""
+        for again in range(2, 100):
+            try:
+                return await self._open(origin, name if again == 2 else f"{name} ({again - 1})", path, author)
+            except NameTaken:
+                continue
+        return await self._open(origin, name, path, author)
+
     async def _run(self, campaign: _Campaign) -> None:
-        wanted = campaign.state.wanted
+        id, wanted = campaign.state.id, campaign.state.wanted
 
         async def on_part(part: object) -> None:
             if isinstance(part, TrialDone):
@@ -168,6 +189,8 @@ class Campaigns:
             _tell(campaign, over=True)
         except Refused as why:
             _tell(campaign, message=why.message, over=True)
+            if campaign.came_to_nothing:
+                self._going.forget(id)
         except Exception:
             log.exception("a campaign came to nothing")
             _tell(campaign, message=FAULT, over=True)

@@ -404,3 +404,20 @@ def test_mismatches_are_complete() -> None:
             "partsTotal is 5, the reference gives 1, at Main.st:27 in scan 10", "INT", "int", 2,
         )
     ]  # fmt: skip
+
+
+OWN_FIRST = """
+PROGRAM Main
+VAR go, motor, other, unseen : BOOL; n, limit : INT; END_VAR
+  unseen := NOT unseen; n := n + limit; other := NOT other; motor := go;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("range", ["", "Main"])
+def test_what_the_log_has_comes_before_what_only_the_reference_has(range: str) -> None:
+    verifier = opened("scan;Main.go;Main.motor\n0;0;0\n1;1;1\n", program_of(OWN_FIRST), range)
+    came = [verifier.verify(scan) for scan in (0, 1)]
+    assert came[0].columns[0].name == came[0].outputs[0] == "Main.motor"
+    assert came[0].inputs[0] == "Main.go"
+    assert len(came[0].outputs) == 4

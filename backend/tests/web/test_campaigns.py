@@ -31,6 +31,10 @@ def tried(server: Server, instance: int, wanted: Message) -> Message:
     return whole
 
 
+def known(server: Server, instance: int) -> list[int]:
+    return [int(each["id"]) for each in server.http.get(f"/api/instances/{instance}/campaigns").json()]
+
+
 def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
     instance = server.instance("guarded", MODEL, main=PROGRAM)
     with server.browser(instance) as browser:
@@ -40,7 +44,7 @@ def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
     assert (one["state"]["done"], one["state"]["of"], one["state"]["message"]) == (8, 8, "")
     assert sum(each["count"] for each in one["state"]["outcomes"]) == 8
     assert tried(server, instance, WANTED)["trials"] == one["trials"]
-    assert [each["id"] for each in server.http.get(f"/api/instances/{instance}/campaigns").json()] == [2, 1]
+    assert known(server, instance) == [2, 1]
 
     told = server.http.get("/api/campaigns/1/export").json()
     assert [each["number"] for each in told["trials"]] == list(range(1, 9))
@@ -50,14 +54,22 @@ def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
     assert len(cases.findall(".//testcase")) == 8
 
     hit = next(each for each in one["trials"] if each["verification"])
-    opened = server.http.post(f"/api/campaigns/1/trials/{hit['number']}/open").json()
+    again = [server.http.post(f"/api/campaigns/1/trials/{hit['number']}/open").json() for _ in range(2)]
+    named = f"{made['name']}, disturbance {hit['number']}"
+    assert [each["name"] for each in again] == [named, f"{named} (2)"]
+    opened = again[0]
     with server.browser(opened["id"]) as browser:
         assert browser.ask(type="travel", scan=hit["scan"])["ok"]
+        said = f"disturbance {hit['number']} of the campaign with seed 4: {hit['text']}"
+        assert said in [each["text"] for each in browser.hello["log"]]
 
     assert server.http.delete("/api/campaigns/1").status_code == 204
     assert server.http.get("/api/campaigns/1").status_code == 404
     refused = tried(server, instance, {**WANTED, "alarms": ["Main.nowhere"]})
     assert "nowhere" in refused["state"]["message"]
+    assert known(server, instance) == [refused["state"]["id"], 2]
+    last = tried(server, instance, WANTED)
+    assert known(server, instance) == [last["state"]["id"], 2], "why a campaign came to nothing is told until the next one"
 
 
 def test_a_trial_of_a_run_that_was_replaced_is_not_opened(server: Server) -> None:

@@ -12,7 +12,7 @@ WRONG: dict[str, tuple[dict[str, object], str]] = {
     "no type": ({"path": "Main.level"}, "type is missing"),
     "unknown type": ({"type": "burn"}, "there is no burn; there are write, force, release"),
     "unknown field": ({"type": "release", "path": None, "through": 1}, "release.through is unknown"),
-    "missing field": ({"type": "write", "path": "Main.level"}, "write.value: Field required"),
+    "missing field": ({"type": "write", "path": "Main.level"}, "write.value is missing"),
     "field of another command": (
         {"type": "generate", "errors": [{"id": "battery-error"}], "ids": []},
         "generate.ids is unknown",

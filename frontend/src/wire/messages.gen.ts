@@ -9302,6 +9302,11 @@ export interface components {
              */
             more: number;
             /**
+             * Near
+             * @description Variables that may be meant, where the column has none that fits.
+             */
+            near: string[];
+            /**
              * Row
              * @description Line of a CSV file, counted from 1; index in a JSON file, counted from 0; None: the file as a whole.
              */

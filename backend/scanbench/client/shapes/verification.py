@@ -169,6 +169,8 @@ class TraceProblem(TypedDict):
     """In so many further rows it is the same."""
     last: int | None
     """The last one of those."""
+    near: list[str]
+    """Variables that may be meant, where the column has none that fits."""
 
 
 class TraceGuess(TypedDict):

@@ -164,11 +164,13 @@ def _resolved(
         except UnknownPath as error:
             why = error.message if each.path else f"Nothing in the program is called `{each.column}`."
             problems.add(
-                table.header, each.column, f"{why}{_near(error.near)} Map it to a variable, or ignore the column."
-            )
+                table.header, each.column, f"{why}{_near(error.near)} Map it to a variable, or ignore the column.",
+                near=error.near[:3],
+            )  # fmt: skip
             continue
         if not each.path:
-            problems.add(table.header, each.column, f"The column is mapped to nothing. Did you mean `{symbol.path}`?")
+            message = f"The column is mapped to nothing. Did you mean `{symbol.path}`?"
+            problems.add(table.header, each.column, message, near=(symbol.path,))
             continue
         why = _unfit(symbol, each)
         if why:

@@ -27,6 +27,7 @@ class TraceRows:
 
     def __init__(self, reader: Reader, trace: Trace) -> None:
         self._reader, self._trace = reader, trace
+        self._given = {(each.symbol.offset, each.symbol.bit) for each in trace.inputs}
         self.unrecorded: dict[str, None] = {}
         """What rows have a result of and the trace has no column of."""
 
@@ -35,17 +36,30 @@ class TraceRows:
         note = _HELD if ran.recorded.row is None else _TAKEN_OVER if ran.recorded.taken_over else ""
         if range.whole:
             made = passes[0] if passes else Pass(None, 0, 0)
+            self._first_of_the_log(made, ran.results)
             rows = [self._row("scan", made, 0, ran, ran.results)]
         else:
+            last = [_last_used(passes, index, ran.results) for index in builtins.range(len(passes))]
+            for made, results in zip(passes, last, strict=True):
+                self._first_of_the_log(made, results)
             rows = [
-                self._row("pass", made, call, ran, _last_used(passes, call - 1, ran.results))
-                for call, made in enumerate(passes, 1)
+                self._row("pass", made, call, ran, results)
+                for call, (made, results) in enumerate(zip(passes, last, strict=True), 1)
             ]
         if ran.trap:
             rows = [*rows[:-1], self._trapped(rows[-1] if rows else Row("none", ran.recorded.scan), ran)]
         if not rows:
             rows = [Row("none", ran.recorded.scan, note="not run in this scan", compared=False)]
         return tuple(replace(each, note="; ".join(filter(None, (note, each.note)))) for each in rows)
+
+    def _first_of_the_log(self, made: Pass, results: Sequence[Result]) -> None:
+        """The columns that the log has come before those that only the monitor has."""
+        names = self._reader.names.within(made.inside)
+        for each in results:
+            self._reader.used(_leaf(names, each.signal), True, each.found)
+        for leaf, value in _read(self._reader, made).values():
+            if (leaf.offset, leaf.bit) in self._given:
+                self._reader.used(leaf, False, value)
 
     def shown(self, passes: Sequence[Pass], ran: Ran, range: Resolved) -> list[Signal]:
         """The outputs that the rows of a scan have."""

@@ -31,6 +31,8 @@ class TraceProblem(Public):
     """In so many further rows it is the same."""
     last: int | None = None
     """The last one of those."""
+    near: tuple[str, ...] = ()
+    """Variables that may be meant, where the column has none that fits."""
 
     def __str__(self) -> str:
         where = [] if self.row is None else [f"row {self.row}"]
@@ -107,7 +109,10 @@ class Problems:
         """Whether any more would not be told."""
         return len(self._found) >= MAX_PROBLEMS
 
-    def add(self, row: int | None, column: str, message: str, warning: bool = False, cause: str = "") -> None:
+    def add(
+        self, row: int | None, column: str, message: str, warning: bool = False, cause: str = "",
+        near: Sequence[str] = (),
+    ) -> None:  # fmt: skip
         """One more, while there is room. A further one of the same column and `cause` is only counted."""
         known = self._causes.get((column, cause)) if cause else None
         if known is not None:
@@ -115,7 +120,7 @@ class Problems:
         elif not self.full:
             if cause:
                 self._causes[column, cause] = len(self._found)
-            self._found.append(TraceProblem(row, column, message, warning))
+            self._found.append(TraceProblem(row, column, message, warning, near=tuple(near)))
 
     def refuse(self) -> None:
         """Raises `BadTraceFile` where there are any."""

@@ -30,6 +30,9 @@ export const FORM: CampaignForm = {
   kinds: KINDS,
 };
 
+/** Disturbances of one campaign, as the server wants it. */
+export const MOST_TRIALS = 2000;
+
 /** The request; null where a number is none. */
 export function wantedOf(form: CampaignForm): NewCampaign | null {
   const count = whole(form.count);

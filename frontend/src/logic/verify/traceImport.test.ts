@@ -128,6 +128,7 @@ it("problems are listed by column; those of the whole file belong to no column",
     warning: false,
     more: 0,
     last: null,
+    near: [],
   });
   const found = byColumn([problem(2, "speed"), problem(null, ""), problem(9, "speed")]);
   expect([...found.keys()]).toEqual(["speed"]);

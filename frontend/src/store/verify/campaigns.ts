@@ -2,7 +2,8 @@
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
-import { type CampaignForm, FORM, type Shown, wantedOf } from "../../logic/verify/campaign";
+import { grouped } from "../../logic/format/numbers";
+import { type CampaignForm, FORM, MOST_TRIALS, type Shown, wantedOf } from "../../logic/verify/campaign";
 import { t } from "../../text";
 import { campaigns } from "../../wire/campaigns";
 import type { CampaignState, CampaignTrial } from "../../wire/types";
@@ -51,6 +52,10 @@ export async function beginCampaign(): Promise<void> {
     set({ trouble: t("campaign.bad") });
     return;
   }
+  if (wanted.count < 1 || wanted.count > MOST_TRIALS) {
+    set({ trouble: t("campaign.bad.count", { most: grouped(MOST_TRIALS) }) });
+    return;
+  }
   await guarded(async (instance) => {
     const { id } = await campaigns.begin(instance, wanted);
     set({ chosen: id, shown: null });
@@ -92,10 +97,14 @@ export const refreshCampaigns = () =>
     fetchTrials();
   });
 
+/** Why is shown until there is a next one, as the server has it. */
+const cameToNothing = ({ over, message, done }: CampaignState) => over && message !== "" && done === 0;
+
 /** The progress of one of the selected instance. */
 export function onCampaign(campaign: CampaignState): void {
   if (campaign.instance !== useBench.getState().instance?.id) return;
-  set(({ list }) => ({ list: [campaign, ...list.filter(({ id }) => id !== campaign.id)].sort((a, b) => b.id - a.id) }));
+  const kept = (each: CampaignState) => each.id !== campaign.id && !(each.id < campaign.id && cameToNothing(each));
+  set(({ list }) => ({ list: [campaign, ...list.filter(kept)].sort((a, b) => b.id - a.id) }));
   if (campaign.id === shownCampaign(get())?.id) fetchTrials();
 }
 

@@ -14,7 +14,7 @@ interface WrittenBy {
 type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
 /** A force of yours that somebody else replaced. */
-export interface Taken {
+interface Taken {
   path: string;
   by: string;
   value: string;

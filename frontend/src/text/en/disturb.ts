@@ -6,6 +6,7 @@ export const disturb = {
     "Conditions, separated by semicolons: where one of them holds and would not hold otherwise, the program has noticed the disturbance.",
   "campaign.all": "All",
   "campaign.bad": "Enter whole numbers, and choose at least one kind.",
+  "campaign.bad.count": "Enter from 1 to {most} disturbances.",
   "campaign.cancel": "Cancel the campaign",
   "campaign.count": "Disturbances",
   "campaign.do": "Try",
@@ -185,6 +186,7 @@ export const disturb = {
   "import.trace.saved": "Saved as “{name}”.",
   "import.trace.start": "Verify",
   "import.trace.starting": "Starting the monitor…",
+  "import.trace.take": "Use {path}",
   "import.trace.title": "Verify a controller log",
   "import.trace.tolerance": "Tolerance",
   "import.trace.tolerance.about":

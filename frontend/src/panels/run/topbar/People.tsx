@@ -15,8 +15,8 @@ export function People() {
   const you = usePlc((plc) => plc.you);
   const known = usePeople();
   const [asking, setAsking] = useState<"invite" | "name" | null>(null);
-  // A person with two windows counts once.
-  const users = [...new Map(present.map((user) => [user.name, user])).values()];
+  // A person with two windows counts once, and a client of a protocol is no person: the Communication page has those.
+  const users = [...new Map(present.filter(({ client }) => !client).map((user) => [user.name, user])).values()];
   const others = users.filter((user) => user.name !== you?.name);
   const names = others.map((user) => user.name).join(", ");
   const items = (): MenuItem[] => [

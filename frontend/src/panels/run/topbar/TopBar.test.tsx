@@ -3,6 +3,7 @@ import { expect, test } from "vitest";
 import { unsavedPaths } from "../../../store/project/unsaved";
 import { box, button, choose, menuItem, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
+import { JO, MIKA } from "../../../testing/samples";
 import { t } from "../../../text";
 import { TopBar } from "./TopBar";
 
@@ -200,4 +201,12 @@ test("a name that is too long is not cut, but refused with how long it may be", 
   await user.type(box(t("name.label"), asking), `${"a".repeat(41)}{Enter}`);
   expect(textOf(asking)).toContain(t("name.long", { longest: 40, length: 41 }));
   expect(document.cookie).not.toContain("aaaa");
+});
+
+test("clients and plants are no people who are connected", async () => {
+  const { server } = await openBar();
+  const here = () => textOf(screen.getByRole("list", { name: t("people.here") }));
+  server.say({ type: "users", users: [MIKA, JO, { name: "Modbus plant", initials: "MP", client: true }] });
+  await waitFor(() => expect(here()).toContain("+1"));
+  expect(here()).not.toContain("MP");
 });

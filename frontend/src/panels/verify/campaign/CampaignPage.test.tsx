@@ -61,6 +61,13 @@ test("a campaign is begun, told as it goes, filtered, and each of its disturbanc
   await user.click(button(t("campaign.do")));
   expect((await screen.findByRole("alert")).textContent).toBe(t("campaign.bad"));
   await user.type(box(t("campaign.seed")), "9");
+  await user.clear(box(t("campaign.count")));
+  await user.type(box(t("campaign.count")), "0");
+  await user.click(button(t("campaign.do")));
+  await screen.findByText(t("campaign.bad.count", { most: "2,000" }));
+  expect(server.askedOf("POST", `/instances/${server.instance.id}/campaigns`)).toEqual([]);
+  await user.clear(box(t("campaign.count")));
+  await user.type(box(t("campaign.count")), "3");
   await user.type(box(t("campaign.alarms")), "Main.alarm");
   await user.click(button(t("campaign.do")));
   server.say(

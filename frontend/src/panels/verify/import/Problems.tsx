@@ -11,8 +11,14 @@ export function placeOf({ row, column }: TraceProblem): string {
   return parts.filter(Boolean).join(", ");
 }
 
+interface Props {
+  problems: readonly TraceProblem[];
+  /** Maps the column of a problem to a variable that may be meant. */
+  onTake?: (column: string, path: string) => void;
+}
+
 /** The problems and their places, so that they can be corrected. */
-export function Problems({ problems }: { problems: readonly TraceProblem[] }) {
+export function Problems({ problems, onTake }: Props) {
   return (
     <ul className="tiproblems" aria-label={t("import.trace.problems")}>
       {problems.map((problem, index) => (
@@ -27,6 +33,12 @@ export function Problems({ problems }: { problems: readonly TraceProblem[] }) {
                 {t("import.trace.problem.more", { count: grouped(problem.more), last: problem.last ?? "" })}
               </span>
             )}
+            {onTake &&
+              problem.near.map((path) => (
+                <button key={path} type="button" className="link titake" onClick={() => onTake(problem.column, path)}>
+                  {t("import.trace.take", { path })}
+                </button>
+              ))}
           </span>
         </li>
       ))}

@@ -18,6 +18,7 @@ const problem = (message: string, column = "", row: number | null = null): Trace
   warning: false,
   more: 0,
   last: null,
+  near: [],
 });
 
 const MAPPING: TraceMapping = {
@@ -142,6 +143,19 @@ test("what is wrong is told with row and column; corrected by hand and by offers
   await screen.findByRole("dialog");
   expect(role("sped").value).toBe("ignore");
   expect(variable("sped").value).toBe("Main.belt.position");
+});
+
+test("a variable that may be meant is taken by a click", async () => {
+  const { server, user, upload } = await openImport();
+  server.on("POST", "/instances/*/trace-check", ({ body }) => {
+    const known = body.mapping.columns?.find(({ column }) => column === "sped")?.path === "Main.speed";
+    const problems = known ? [] : [{ ...problem("Nothing is called `sped`.", "sped", 1), near: ["Main.speed"] }];
+    return { ok: known, problems, first: 0, last: 19, missing: 0 };
+  });
+  await upload("line.csv");
+  await user.click(await screen.findByRole("button", { name: t("import.trace.take", { path: "Main.speed" }) }));
+  expect(variable("sped").value).toBe("Main.speed");
+  await waitFor(() => expect(start()).toHaveProperty("disabled", false));
 });
 
 test("a mapping is saved under a name, and fits again", async () => {

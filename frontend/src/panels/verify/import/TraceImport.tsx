@@ -76,7 +76,12 @@ function ImportDialog() {
             <>
               <Axis trace={trace} mapping={mapping} />
               <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} onTolerance={setColumn} />
-              {told.length > 0 && <Problems problems={told} />}
+              {told.length > 0 && (
+                <Problems
+                  problems={told}
+                  onTake={(column, path) => editMapping(changeColumn(mapping, column, { path }))}
+                />
+              )}
             </>
           )}
         </div>
