@@ -24,8 +24,6 @@ KEPT = 10
 """Campaigns of an instance."""
 MOST = 2
 """At a time."""
-_OPENED = "{}, disturbance {}"
-"""The name of a PLC: names are the same in each language."""
 _TOLD_EVERY_NS = 250_000_000
 
 
@@ -153,7 +151,7 @@ class Campaigns:
                 CampaignDone,
                 on_part,
             )
-            name = _OPENED.format(campaign.session.name, number)
+            name = f"{campaign.session.name}, disturbance {number}"
             session = await self._opened(campaign.session, name, to, author)
             text = next((each.text for each in campaign.trials if each.number == number), "")
             session.log.add(author, f"disturbance {number} of the campaign with seed {wanted.seed}: {text}")

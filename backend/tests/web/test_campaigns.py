@@ -69,7 +69,9 @@ def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
     assert "nowhere" in refused["state"]["message"]
     assert known(server, instance) == [refused["state"]["id"], 2]
     last = tried(server, instance, WANTED)
-    assert known(server, instance) == [last["state"]["id"], 2], "why a campaign came to nothing is told until the next one"
+    assert known(server, instance) == [last["state"]["id"], 2], (
+        "why a campaign came to nothing is told until the next one"
+    )
 
 
 def test_a_trial_of_a_run_that_was_replaced_is_not_opened(server: Server) -> None:
