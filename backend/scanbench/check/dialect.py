@@ -79,6 +79,7 @@ class Allowance(Enum):
     ADDRESS_OPERATOR = auto()
     MIXED_ARGUMENTS = auto()
     COUNTER_WRITES = auto()
+    OPEN_REFERENCES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +90,7 @@ class Rule:
     """What the dialect allows."""
     strict: str
     """What the standard says."""
-    instead: str
-    """How a strict program writes it, by an example."""
+    instead: str  # how a strict program writes it, by an example
 
 
 RULES: dict[Allowance, Rule] = {
@@ -398,6 +398,11 @@ RULES: dict[Allowance, Rule] = {
         "`&x` as the address of a variable",
         "`&` joins two operands, as AND",
         "`REF(x)`",
+    ),
+    Allowance.OPEN_REFERENCES: Rule(
+        "REF_TO ARRAY[*]: a reference to an array of any size, with its bounds",
+        "what is referred to has a size",
+        "`REF_TO ARRAY[0..9] OF INT`",
     ),
     Allowance.COUNTER_WRITES: Rule(
         "assignments to the counter of a FOR loop inside of it, by `:=`, `=>` or an in-out: after each round the step is added to what it then is",

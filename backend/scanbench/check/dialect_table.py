@@ -21,6 +21,7 @@ _SIEMENS = frozenset(
             Allowance.COMBINED_ASSIGNMENT,
             Allowance.BLOCK_WRITES,
             Allowance.TEXT_CASES,
+            Allowance.OPEN_REFERENCES,
         ),
     }
 )

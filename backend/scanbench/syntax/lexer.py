@@ -214,6 +214,8 @@ def _with_closed_strings(source: Source, text: str, pieces: list[str], start: in
 
 NOTHING = "???"
 """What an editor of drawings, like those of other tools, writes at a pin that is not connected."""
+GLOBAL_MARK = '"'
+"""What a name begins with that is the one of something global, whatever the POU declares: SCL tells them apart by quotes."""
 FOREIGN = {
     "!=": "write `<>`",
     "!": "write NOT",

@@ -11,16 +11,16 @@ from dataclasses import replace
 from scanbench.problems import Problem, Severity
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor
-from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
+from scanbench.syntax.lexer import AHEAD, GLOBAL_MARK, Lex, Tokens, tokenize
 from scanbench.syntax.parse_st import whole
+from scanbench.syntax.scl_data import DataBlocks
 from scanbench.syntax.scl_overlays import with_overlays
-from scanbench.syntax.scl_words import SYSTEM_TAGS, Words
+from scanbench.syntax.scl_words import SYSTEM_TAGS, name_of, typed
 from scanbench.syntax.source import Source
 
 ENDINGS = (".scl", ".udt", ".db")
 STARTUP = "STARTUP"
 """The modifier of a program that comes before the others where no task says anything else."""
-_SETTINGS = frozenset(("AUTHOR", "FAMILY", "KNOW_HOW_PROTECT", "NAME", "NON_RETAIN", "TITLE", "VERSION"))
 _OPENS = frozenset(("FUNCTION", "FUNCTION_BLOCK", "ORGANIZATION_BLOCK", "DATA_BLOCK", "TYPE"))
 _BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
 _EVENT_BLOCKS = {"ORGANIZATION_BLOCK": "FUNCTION_BLOCK", "END_ORGANIZATION_BLOCK": "END_FUNCTION_BLOCK"}
@@ -32,7 +32,6 @@ _SECTIONS = {
 }
 """The section that a variable of a type is declared in, instead of the one that it is written in: a Variant leads to its variable
 itself, and a timer is the one that is passed."""
-_PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
 _JOINED = frozenset("+-*/")
 """Operators of combined assignments, `+=` and the like."""
 _OF_SECTIONS = frozenset(("DB_SPECIFIC", "NON_RETAIN"))
@@ -44,7 +43,6 @@ _CYCLIC = re.compile(r"MAIN|\bOB_?1\b", re.IGNORECASE)
 _CYCLE = "(Cycle)"
 _DONE = "Done_since_start"
 """The variable that tells that the organization block of a start has run."""
-_NO_NAME = re.compile(r"\W")
 
 
 def is_scl(name: str) -> bool:
@@ -67,23 +65,21 @@ def parse_scl(source: Source) -> tuple[tree.File, list[Problem]]:
     return file, told
 
 
-def name_of(quoted: str) -> str:
-    """The name between quotes, with `_` for what no name of the standard can have."""
-    plain = _NO_NAME.sub("_", quoted)
-    return f"_{plain}" if plain[:1].isdigit() else plain
-
-
-class _Writer(Words):
+class _Writer(DataBlocks):
     """Reads the tokens from the first to the last, and writes those of the standard."""
 
     def __init__(self, source: Source, tokens: Tokens) -> None:
         super().__init__(source, tokens)
         self._globals: list[tuple[str, int]] = []
-        """Names in quotes in its statements, and where."""
+        """Names in quotes in its statements, and which token that was written each is."""
+        self._block_name = ""
+        """Its name, in upper case: a FUNCTION has its result under it."""
         self._combining = False
         """In the value of `x += value`."""
         self._section = ""
         """The word that the declarations begin with, VAR_IN_OUT for one."""
+        self._constant = False
+        """In VAR CONSTANT, where a constant need not have a type."""
         self._back = ""
         """The section to go on with after a declaration that is put into another one."""
         self._event = False
@@ -97,7 +93,7 @@ class _Writer(Words):
         """All of them, closed."""
         while not self._ended():
             self._one()
-        self._tell_both()
+        self._tell_apart()
         for _ in range(AHEAD):
             self._put(Lex.END, "", self._in.starts[self._at])
         return self._out
@@ -105,16 +101,12 @@ class _Writer(Words):
     def _one(self) -> None:
         word = self._word()
         if word in _OPENS:
-            self._tell_both()
+            self._tell_apart()
             self._block(word)
         elif word in _BLOCKS:
             self._end_of_organization(word)
-        elif word == "LABEL" and self._word(2) in (";", ",") and self._begins_line():
-            while not self._ended() and self._word() != "END_LABEL":
-                self._at += 1
-            self._at += 0 if self._ended() else 1
-        elif word == "CONST" and self._word(2) == ":=" and self._begins_line():
-            self._untyped_constants()
+        elif self._old_declarations(word):
+            pass
         elif word == "(" and self._word(1) == ")" and self._is_comment():
             self._at += 2
         elif word in ("REGION", "END_REGION") and self._begins_line():
@@ -138,6 +130,20 @@ class _Writer(Words):
                 self._back = ""
         else:
             self._copy()
+
+    def _old_declarations(self, word: str) -> bool:
+        """LABEL ... END_LABEL and constants without a type."""
+        if word == "LABEL" and self._word(2) in (";", ",") and self._begins_line():
+            while not self._ended() and self._word() != "END_LABEL":
+                self._at += 1
+            self._at += 0 if self._ended() else 1
+        elif word == "CONST" and self._word(2) == ":=" and self._begins_line():
+            self._untyped_constants()
+        elif self._constant and self._word(1) == ":=" and self._word(-1) in ("CONSTANT", ";"):
+            self._untyped_constant()
+        else:
+            return False
+        return True
 
     def _end_of_organization(self, word: str) -> None:
         if self._restart:
@@ -163,6 +169,8 @@ class _Writer(Words):
         tokens = zip(self._out.kinds[first:], self._out.texts[first:], self._out.starts[first:], strict=True)
         target = list(tokens)
         self._put(Lex.OPERATOR, ":=", at)
+        further = len(self._out.kinds) - first
+        self._globals += [(name, index + further) for name, index in self._globals if index >= first]
         for each in target:
             self._put(*each)
         self._put(Lex.OPERATOR, operator, at)
@@ -200,6 +208,7 @@ class _Writer(Words):
         self._put(Lex.KEYWORD, _BLOCKS.get(word, word), start)
         self._copy()
         self._globals.clear()
+        self._block_name = name_of(name).upper()
         self._constants = {}
         self._restart = word == "ORGANIZATION_BLOCK" and self._is_titled(name, _RESTART)
         if self._restart:
@@ -221,73 +230,6 @@ class _Writer(Words):
         if word == "TYPE" and self._word() == "STRUCT":
             self._put(Lex.OPERATOR, ":", self._in.starts[self._at])
 
-    def _data_block(self, start: int) -> None:
-        """A global variable: of a structure that is written there, or of a block or type; with its start values."""
-        self._put(Lex.KEYWORD, "VAR_GLOBAL", start)
-        named = self._at
-        self._at += 1
-        self._skip_settings()
-        if self._word().startswith("VAR") and self._word(1) == "RETAIN":
-            self._put(Lex.NAME, "RETAIN", self._in.starts[self._at])
-        after, self._at = self._at, named
-        self._copy()
-        self._at = after
-        self._put(Lex.OPERATOR, ":", self._in.starts[self._at])
-        if self._word() in ("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"):
-            retained = {self._word(1) == "RETAIN"}
-            self._put(Lex.KEYWORD, "STRUCT", self._in.starts[self._at])
-            while self._word().startswith("VAR"):
-                retained.add(self._word(1) == "RETAIN")
-                if len(retained) > 1:
-                    self._refuse(
-                        "A DATA_BLOCK is kept over a restart as a whole or not at all here. Write two of them.",
-                        self._in.starts[self._at],
-                    )
-                self._at += 2 if self._word(1) in ("RETAIN", "NON_RETAIN") else 1
-                while not self._ended() and self._word() != "END_VAR":
-                    self._copy()
-                self._at += 0 if self._ended() else 1
-            self._put(Lex.KEYWORD, "END_STRUCT", self._in.starts[self._at])
-        elif self._word() == "STRUCT":
-            self._structure()
-        else:
-            self._copy()
-        while self._word() == ";":
-            self._at += 1
-        if self._word() == "BEGIN":
-            self._at += 1
-            self._start_values()
-        end = self._in.starts[self._at]
-        self._put(Lex.OPERATOR, ";", end)
-        self._put(Lex.KEYWORD, "END_VAR", end)
-        if self._word() == "END_DATA_BLOCK":
-            self._at += 1
-
-    def _structure(self) -> None:
-        depth = 0
-        while not self._ended():
-            depth += {"STRUCT": 1, "END_STRUCT": -1}.get(self._word(), 0)
-            self._copy()
-            if depth == 0:
-                return
-
-    def _start_values(self) -> None:
-        """`x := 5; y[2].z := 6;` and so on, as the start value of the whole."""
-        first = True
-        while not self._ended() and self._word() != "END_DATA_BLOCK":
-            if self._word() == ";":
-                self._at += 1
-                continue
-            at = self._in.starts[self._at]
-            if first:
-                self._put(Lex.OPERATOR, ":=", at)
-            self._put(Lex.OPERATOR, "(" if first else ",", at)
-            first = False
-            while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
-                self._copy()
-        if not first:
-            self._put(Lex.OPERATOR, ")", self._in.starts[self._at])
-
     # ---- one token ----------------------------------------------------------------------------------------------
 
     def _copy(self) -> None:
@@ -306,6 +248,7 @@ class _Writer(Words):
             return
         if kind is Lex.KEYWORD and text.startswith(("VAR", "END_VAR")):
             self._declares = text != "END_VAR"
+            self._constant = self._word() == "CONSTANT"
             self._section = text
         elif self._declares and self._word() == ":":
             self._locals.add(name_of(text.strip('"')).upper())
@@ -320,12 +263,12 @@ class _Writer(Words):
             ):
                 self._several(tag, at)
                 return
-            if not self._declares and self._in.texts[self._at - 2] != "#":
-                self._globals.append((name, at))
+            argument = self._depth and self._word() in (":=", "=>")
+            if not self._declares and not argument and self._in.texts[self._at - 2] != "#":
+                self._globals.append((name, len(self._out.kinds)))
             self._put(Lex.NAME, name, at + 1)
         elif kind is Lex.TYPED:
-            prefix, hash, value = text.partition("#")
-            self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
+            self._put(kind, typed(text), at)
         else:
             self._depth += {"(": 1, ")": -1}.get(text, 0)
             self._put(kind, text, at)
@@ -335,14 +278,12 @@ class _Writer(Words):
         self._put(Lex.KEYWORD, "END_VAR", self._in.starts[self._at])
         self._put(Lex.KEYWORD, section, self._in.starts[self._at])
 
-    def _tell_both(self) -> None:
-        """Refuses what is the name of something global and of something in the block: the quotes and `#` tell them apart in SCL only."""
-        for name, at in self._globals:
-            if name.upper() in self._locals:
-                self._refuse(
-                    f'`"{name}"` is global, and `#{name}` is declared in this block: they are one name here. Rename one of them.',
-                    at,
-                )
+    def _tell_apart(self) -> None:
+        """Marks what is global and has the name of something in the block: the quotes and `#` alone tell them apart."""
+        for name, index in self._globals:
+            if name.upper() in self._locals - {self._block_name}:
+                self._out.texts[index] = GLOBAL_MARK + name
+                self._out.starts[index] -= 1
         self._globals, self._locals, self._declares = [], set(), False
 
     def _is_titled(self, name: str, words: tuple[str, ...]) -> bool:
@@ -359,7 +300,3 @@ class _Writer(Words):
         for text in tokens.split():
             kind = Lex.NAME if text in (_DONE, "BOOL") else Lex.OPERATOR if text in (":", ";", ":=") else Lex.KEYWORD
             self._put(kind, text, at)
-
-    def _skip_settings(self) -> None:
-        while self._word() in _SETTINGS and self._begins_line():
-            self._skip_line()

@@ -23,6 +23,8 @@ _BY_NUMBER = frozenset(("T_NO", "C_NO"))
 """Inputs that take a timer or counter by its number, `T5`."""
 _S5_NUMBER = re.compile(r"([TCZ])(\d{1,3})", re.IGNORECASE)
 _OLD_BLOCK = re.compile(r"S?FB\d+", re.IGNORECASE)
+_PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
+_NO_NAME = re.compile(r"\W")
 _CLOCKS = ("10Hz", "5Hz", "2_5Hz", "2Hz", "1_25Hz", "1Hz", "0_625Hz", "0_5Hz")
 SYSTEM_TAGS: dict[str, tuple[tuple[Lex, str], ...]] = {
     "ALWAYSTRUE": ((Lex.KEYWORD, "TRUE"),),
@@ -34,6 +36,18 @@ SYSTEM_TAGS: dict[str, tuple[tuple[Lex, str], ...]] = {
     },
 }
 """The names that the TIA Portal gives to bits of system and clock memory, and what has their value here."""
+
+
+def name_of(quoted: str) -> str:
+    """The name between quotes, with `_` for what no name of the standard can have."""
+    plain = _NO_NAME.sub("_", quoted)
+    return f"_{plain}" if plain[:1].isdigit() else plain
+
+
+def typed(literal: str) -> str:
+    """A literal with the type of the standard before its `#`: `WORD#16#1` of `W#16#1`."""
+    prefix, hash, value = literal.partition("#")
+    return _PREFIXES.get(prefix.upper(), prefix) + hash + value
 
 
 def address(name: str, bit: str | None) -> str | None:
@@ -156,17 +170,22 @@ class Words(Rewriter):
         """CONST ... END_CONST of STEP 7: each is read wherever it is named."""
         self._at += 1
         while not self._ended() and self._word() != "END_CONST":
-            name = self._in.texts[self._at].upper()
-            self._at += 2
-            value: list[tuple[Lex, str]] = []
-            while not self._ended() and self._word() not in (";", "END_CONST"):
-                kind, text = self._in.kinds[self._at], self._in.texts[self._at]
-                value += self._constants.get(text.upper(), [(kind, text)])
-                self._at += 1
-            wrapped = len(value) > 1
-            self._constants[name] = [(Lex.OPERATOR, "("), *value, (Lex.OPERATOR, ")")] if wrapped else value
-            self._at += self._word() == ";"
+            self._untyped_constant()
         self._at += 0 if self._ended() else 1
+
+    def _untyped_constant(self) -> None:
+        """`NAME := value;`"""
+        name = self._in.texts[self._at].upper()
+        self._at += 2
+        value: list[tuple[Lex, str]] = []
+        while not self._ended() and self._word() not in (";", "END_CONST", "END_VAR"):
+            kind, text = self._in.kinds[self._at], self._in.texts[self._at]
+            plain = [] if text == "#" else [(kind, typed(text) if kind is Lex.TYPED else text)]
+            value += self._constants.get(text.upper(), plain)
+            self._at += 1
+        wrapped = len(value) > 1
+        self._constants[name] = [(Lex.OPERATOR, "("), *value, (Lex.OPERATOR, ")")] if wrapped else value
+        self._at += self._word() == ";"
 
     def _is_comment(self) -> bool:
         """Whether the parentheses are those of a comment in several languages, `(/* ... */)`."""

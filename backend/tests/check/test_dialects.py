@@ -289,7 +289,7 @@ APART = {
     Allowance.GENERIC_CONSTANTS, Allowance.HALVES_AWAY,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
-    Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION,
+    Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION, Allowance.OPEN_REFERENCES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

@@ -4,8 +4,12 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.language.format import formatted
+from scanbench.program.types import Record
+from scanbench.runtime.header import Mode, fresh_image
+from scanbench.runtime.restart import retained
 from scanbench.syntax.language_file import guess_dialect, with_dialect
-from scanbench.syntax.scl import name_of, parse_scl
+from scanbench.syntax.scl import parse_scl
+from scanbench.syntax.scl_words import name_of
 from scanbench.syntax.source import Source
 from tests.caseformat import MODELS
 
@@ -72,14 +76,17 @@ def test_it_is_not_laid_out_and_tells_its_dialect() -> None:
     assert guess_dialect({"a.st": ""}, ["Thumbs.db"]) == "iec"
 
 
-def test_a_name_that_is_global_and_of_the_block_is_refused_and_not_mixed_up() -> None:
+def test_a_name_that_is_global_and_of_the_block_is_told_apart() -> None:
     block = (
-        'FUNCTION_BLOCK "F"\nVAR\n  Speed : Int;\n  a : Int;\nEND_VAR\nBEGIN\n  #a := "Speed".v;\nEND_FUNCTION_BLOCK\n'
+        'FUNCTION_BLOCK "F"\nVAR\n  Speed : Int;\n  a : Int;\nEND_VAR\nBEGIN\n  #a := "Speed".{};\nEND_FUNCTION_BLOCK\n'
     )
     data = 'DATA_BLOCK "Speed"\nSTRUCT\n  v : Int;\nEND_STRUCT;\nEND_DATA_BLOCK\n'
-    assert "7:9 X001" in [each[:8] for each in problems(block + data)]
-    result = 'FUNCTION "G" : Int\nVAR_INPUT\n  a : Int;\nEND_VAR\nBEGIN\n  "G" := #a;\nEND_FUNCTION\n'
-    assert problems(result) == []
+    assert problems(block.format("v") + data) == []
+    assert [each.split()[:2] for each in problems(block.format("w") + data)] == [["7:9", "T001"]]
+    assert "7:9 T001 `Speed` is not declared." in problems(block.format("v"))[0]
+    for name in ('"G"', "#G"):
+        result = f'FUNCTION "G" : Int\nVAR_INPUT\n  a : Int;\nEND_VAR\nBEGIN\n  "G" := #a;\n  {name} := #a + 1;\nEND_FUNCTION\n'
+        assert problems(result) == []
 
 
 def test_an_organization_block_of_an_event_does_not_run_in_every_cycle() -> None:
@@ -94,7 +101,15 @@ def test_a_data_block_is_kept_over_a_restart_as_it_says() -> None:
     file, found = parse_scl(Source("a.scl", text))
     assert (file.globals[0].qualifiers, found) == (("RETAIN",), [])
     mixed = text.replace("BEGIN", "VAR\n  y : Int;\nEND_VAR\nBEGIN")
-    assert [each.code for each in parse_scl(Source("a.scl", mixed))[1]] == ["X001"]
+    program = check_sources({"a.scl": mixed, "b.st": "PROGRAM Other END_PROGRAM"}, MODEL).program
+    assert program is not None
+    assert program.layout.globals is not None
+    [each] = program.layout.globals.members.values()
+    assert isinstance(each.type, Record)
+    x, y = (each.offset + each.type.members[name].offset for name in "XY")
+    kept = retained(program, fresh_image(program, Mode.RUN))
+    assert (x, 2) in kept
+    assert (y, 2) not in kept
 
 
 def test_a_type_that_is_not_there_is_told_once_and_not_at_every_call() -> None:

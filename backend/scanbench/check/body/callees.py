@@ -20,9 +20,9 @@ from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.uses import Symbol
 from scanbench.program.origin import in_library
 from scanbench.program.program import Expr, Place, Pou
-from scanbench.program.types import ELEMENTARY, Record, Reference, Type
+from scanbench.program.types import ELEMENTARY, Record, Reference, Section, Type
 from scanbench.syntax import tree
-from scanbench.syntax.lexer import NOTHING
+from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
 
 _TEXTS = {
     "STRING_TO_BOOL": Allowance.TRUE_TEXTS, "STRING_TO_ULINT": Allowance.TEXT_NUMBERS,
@@ -43,7 +43,7 @@ def callee_of(
 
     Of a generic FUNCTION it is the one for the arguments of `node`.
     """
-    method = method_called(body, callee)
+    method = None if means_function(body, callee) else method_called(body, callee)
     if method is not None:
         return method if node is None else (method[0], method_overload(body, *method, node))
     name = dotted(callee)
@@ -52,6 +52,7 @@ def callee_of(
     name, _, chosen = name.partition("<")  # `f<DINT>(...)`
     if hides(body, name):
         return None
+    name = name.removeprefix(GLOBAL_MARK)
     names: Names = body.declarations.names
     key = names.find(name, callee.span, body.pous.functions, body.pous.generic)
     if key in body.pous.overloads and node is not None:
@@ -73,6 +74,17 @@ def callee_of(
     return found
 
 
+def means_function(body: Body, callee: tree.Expression) -> bool:
+    """Whether a name alone is that of a FUNCTION, also in a class that has such a method: SIMATIC AX calls that by `THIS.name`."""
+    if not isinstance(callee, tree.Name) or not may(body, Allowance.OVERLOADS) or own_class(body) is None:
+        return False
+    name = callee.name.removeprefix(GLOBAL_MARK)
+    names: Names = body.declarations.names
+    return (
+        name.upper() in FUNCTIONS or names.find(name, callee.span, body.pous.functions, body.pous.generic) is not None
+    )
+
+
 def _is_vendors(body: Body, name: str) -> bool:
     """Whether the dialect converts texts otherwise than this function of the library."""
     allowance = _TEXTS.get(name.upper())
@@ -82,6 +94,8 @@ def _is_vendors(body: Body, name: str) -> bool:
 def hides(body: Body, path: str) -> bool:
     """Whether this is a variable, and no function: a plain value of the same name, as a result, hides none."""
     found = body.scope.find(path.split(".")[0])
+    if found is not None and found[0].section is Section.RESULT and may(body, Allowance.OVERLOADS):
+        return "." in path or isinstance(found[0].type, Record)  # an interface is not called
     return found is not None and ("." in path or isinstance(found[0].type, Record | Reference))
 
 
@@ -117,7 +131,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         raise body.report.reject(
             "T010", "Only functions, methods and instances of function blocks can be called.", node.span
         )
-    name = node.callee.name
+    name = node.callee.name.removeprefix(GLOBAL_MARK)
     key = name.upper()
     if name == NOTHING:  # reported
         raise Rejected

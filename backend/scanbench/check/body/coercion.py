@@ -4,10 +4,12 @@ from scanbench.check.body import wide
 from scanbench.check.body.context import Body
 from scanbench.check.body.lenient import coerced
 from scanbench.check.body.literals import as_text, literal_as
+from scanbench.check.body.open_references import open_value
 from scanbench.check.body.references import as_reference
 from scanbench.check.body.subrange_checks import into, plain
 from scanbench.check.body.subrange_copies import landed
 from scanbench.check.context import Rejected
+from scanbench.check.declare.open_references import array_of
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
 from scanbench.program.types import (
@@ -45,6 +47,8 @@ def coerce(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr:
     expr = plain(body, expr, span)
     if isinstance(type, OpenArray):
         raise body.report.reject("T003", "An ARRAY[*] cannot be assigned as a whole; assign its elements.", span)
+    if isinstance(type, Record) and expr.type != type and array_of(type) is not None:
+        return open_value(body, expr, type, span, what)
     if isinstance(type, Subrange):
         inner = coerce(body, expr, base_of(type), span, what)
         return into(body, inner, type, span, what.strip("`"))

@@ -8,6 +8,7 @@ from scanbench.check.body.context import Body, Found
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.lenient import index as lenient_index
 from scanbench.check.body.references import moved, target_of
+from scanbench.check.declare.open_references import SLOT
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
@@ -159,19 +160,20 @@ def _open_index(body: Body, place: Place, type: OpenArray, dimension: int, node:
 
 
 def array_bounds(place: Place) -> list[tuple[Expr, Expr]]:
-    """Lower and upper bound of each dimension of an array: for ARRAY[*], what came with the call."""
+    """Lower and upper bound of each dimension of an array: for ARRAY[*], what came with the call or is kept with a reference."""
     type = place.type
     if isinstance(type, ArrayType):
         return [(Const(LINT, low), Const(LINT, high)) for low, high in type.bounds]
     assert isinstance(type, OpenArray)
-    slot = place.slot
+    slot = place.reference.place if isinstance(place.reference, Load) else place.slot
     assert slot is not None
+    owner = slot.variable.removesuffix(SLOT)
     made: list[tuple[Expr, Expr]] = []
     for dimension in range(type.dimensions):
         low, high = (
             replace(
                 slot, type=LINT, offset=slot.offset + SLOT_BYTES * (1 + 2 * dimension + upper),
-                variable=f"{slot.variable}${'HIGH' if upper else 'LOW'}{dimension + 1}" if slot.variable else "",
+                variable=f"{owner}${'HIGH' if upper else 'LOW'}{dimension + 1}" if owner else "",
             )
             for upper in (0, 1)
         )  # fmt: skip

@@ -12,6 +12,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.generic import tried
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.context import Rejected
+from scanbench.check.declare.names import qualified
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.shown import shown
@@ -122,6 +123,8 @@ def calculated(body: Body, node: tree.Call, wanted: Type | None) -> tree.Express
         return node
     name = node.callee.name.upper()
     values = [each.value for each in node.arguments if each.value is not None]
+    if name == "NAME_OF" and len(values) == 1:
+        return _name_of(body, node, values[0])
     if name == "MUX" and any((each.name or "").upper() == "INELSE" for each in node.arguments):
         return _mux(body, node)
     if name == "T_CONV" and len(values) == 1:
@@ -132,6 +135,18 @@ def calculated(body: Body, node: tree.Call, wanted: Type | None) -> tree.Express
         return node
     used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, f"`{name}` calculates with times", "`+` or `-`")
     return tree.BinaryOp(TIMES[name], values[0], values[1], node.span)
+
+
+def _name_of(body: Body, node: tree.Call, value: tree.Expression) -> tree.Expression:
+    """`NAME_OF(OnDelay)` of SIMATIC AX: the whole name of what is declared, as a text."""
+    path, declared = shown(value), body.declarations
+    key = declared.names.find(path, value.span, declared.block_trees, declared.type_trees, body.pous.functions)
+    if key is None:
+        raise body.report.reject("T001", f"There is no `{path}` of which this could be the name.", value.span)
+    tree_of = declared.block_trees.get(key) or declared.type_trees.get(key)
+    pou = body.pous.functions.get(key)
+    name = qualified(tree_of.namespace, tree_of.name) if tree_of is not None else pou.name if pou is not None else path
+    return tree.Literal("string", name.encode("latin-1", "replace"), None, node.span)
 
 
 def _converted(body: Body, node: tree.Call, value: tree.Expression, wanted: Type | None) -> tree.Expression:

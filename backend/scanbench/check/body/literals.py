@@ -3,10 +3,10 @@
 import math
 from dataclasses import replace
 
-from scanbench.check.body.allowed import allowed, may
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
-from scanbench.check.body.lenient import enumerated
+from scanbench.check.body.lenient import MILLISECOND_NS, enumerated
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
@@ -16,6 +16,7 @@ from scanbench.program.types import (
     ABBREVIATIONS,
     BOOL,
     CHAR,
+    DINT,
     ELEMENTARY,
     LINT,
     REAL,
@@ -138,6 +139,10 @@ def literal_as(body: Body, expr: Const, type: Elementary, span: Span, what: str)
         nearest = round(round_real(float(value), REAL))
         if allowed(body, Allowance.ROUNDING, span, f"{what} is {type}, and this is {value}", f"`{nearest}`"):
             return Const(type, _in_range(body, nearest, type, span))
+    if type == TIME and expr.type == ANY_INT and may(body, Allowance.TIME_NUMBERS):
+        milliseconds = _in_range(body, int(value), DINT, span)
+        used(body, Allowance.TIME_NUMBERS, span, f"{what} is {type}, and this is {value}", f"`T#{value}ms`")
+        return Const(type, milliseconds * MILLISECOND_NS)
     if expr.type == ANY_REAL or type.kind in (Kind.TIME, Kind.DATE, Kind.CHAR, Kind.REF):
         hint = f" Write it like {EXAMPLES[type.name]}." if type.name in EXAMPLES else ""
         if type.kind in (Kind.INT, Kind.UINT, Kind.BITS):

@@ -7,6 +7,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.joining_hint import joining_hint
 from scanbench.check.body.lenient import LOGIC, as_calculated, as_duration, bit_sum, counted, index, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
+from scanbench.check.body.places import plain_reference
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.subrange_checks import plain
 from scanbench.check.dialect import Allowance
@@ -76,6 +77,7 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
 
 def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
     left, right = _characters(body, left, right, span), _characters(body, right, left, span)
+    left, right = plain_reference(body, left, span), plain_reference(body, right, span)
     a, b = left.type, right.type
     if isinstance(a, StringType) and isinstance(b, StringType):
         if a.width != b.width:

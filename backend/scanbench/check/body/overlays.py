@@ -11,12 +11,15 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
-from scanbench.program.types import BOOL, ArrayType, Elementary, Kind, Record, Type, base_of
+from scanbench.program.types import BOOL, TIME, ArrayType, Elementary, Kind, Record, Type, base_of
 from scanbench.syntax import tree
 
 MOST_BYTES = 256
 """Bytes of a variable that is seen in two ways: each has an assignment after each statement that writes it."""
 PLAIN = (Kind.BITS, Kind.INT, Kind.UINT)
+SEEN = ("REAL", "CHAR", "TIME")
+"""Others whose bytes in an S7 are known; a TIME has 32 bits with the number of milliseconds."""
+TIME_BYTES = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +31,10 @@ class Leaf:
     byte: int
     bit: int
     """Of a BOOL; of others 0."""
+
+    @property
+    def size(self) -> int:
+        return _size(self.type)
 
 
 def overlaid(
@@ -129,7 +136,7 @@ class _Keeper:
         for leaf in self._parts[source]:
             if leaf.type.kind is Kind.BOOL:
                 bits[leaf.byte, leaf.bit] = leaf.node
-            for number in range(leaf.type.size if leaf.type.kind is not Kind.BOOL else 0):
+            for number in range(leaf.size if leaf.type.kind is not Kind.BOOL else 0):
                 octets[leaf.byte + number] = leaf
         for leaf in self._parts[target]:
             yield from _from(leaf, bits, octets, span)
@@ -159,22 +166,27 @@ def _from(
     for bit in range(8) if leaf.type.kind is Kind.BITS else ():
         if (leaf.byte, bit) in bits:
             yield tree.Assignment(tree.PartialAccess(leaf.node, "X", bit, span), bits[leaf.byte, bit], span)
-    given = [octets.get(byte) for byte in range(leaf.byte, leaf.byte + leaf.type.size)]
+    given = [octets.get(byte) for byte in range(leaf.byte, leaf.byte + leaf.size)]
     if None in given:
         return
     value: tree.Expression | None = None
-    word = {1: "BYTE", 2: "WORD", 4: "DWORD"}[leaf.type.size]
-    for byte in range(leaf.byte, leaf.byte + leaf.type.size):
+    word = {1: "BYTE", 2: "WORD", 4: "DWORD"}[leaf.size]
+    for byte in range(leaf.byte, leaf.byte + leaf.size):
         one: tree.Expression = _octet(octets[byte], byte)
-        left = 8 * (leaf.byte + leaf.type.size - 1 - byte)
-        if leaf.type.size > 1:
+        left = 8 * (leaf.byte + leaf.size - 1 - byte)
+        if leaf.size > 1:
             count = tree.Literal("int", left, None, span)
             one = _call("SHL", (_call(f"BYTE_TO_{word}", (one,), span), count), span)
         value = one if value is None else tree.BinaryOp("or", value, one, span)
     assert value is not None
-    if leaf.type.name != word:
-        value = _call(f"{word}_TO_{leaf.type.name}", (value,), span)
-    yield tree.Assignment(leaf.node, value, span)
+    yield tree.Assignment(leaf.node, _converted(leaf.type, word, value, span), span)
+
+
+def _converted(type: Elementary, word: str, value: tree.Expression, span: Span) -> tree.Expression:
+    """The bits as a value of this type."""
+    if type == TIME:
+        return _call("DINT_TO_TIME", (_call("DWORD_TO_DINT", (value,), span),), span)
+    return value if type.name == word else _call(f"{word}_TO_{type.name}", (value,), span)
 
 
 def _octet(leaf: Leaf, byte: int) -> tree.Expression:
@@ -182,8 +194,9 @@ def _octet(leaf: Leaf, byte: int) -> tree.Expression:
     span = leaf.node.span
     if leaf.type.size == 1:
         return leaf.node if leaf.type.kind is Kind.BITS else _call(f"{leaf.type.name}_TO_BYTE", (leaf.node,), span)
-    node = leaf.node if leaf.type.kind in PLAIN else _call("REAL_TO_DWORD", (leaf.node,), span)
-    return tree.PartialAccess(node, "B", leaf.byte + leaf.type.size - 1 - byte, span)
+    given = "TIME_TO_DINT" if leaf.type == TIME else "REAL_TO_DWORD"
+    node = leaf.node if leaf.type.kind in PLAIN else _call(given, (leaf.node,), span)
+    return tree.PartialAccess(node, "B", leaf.byte + leaf.size - 1 - byte, span)
 
 
 def _call(name: str, values: tuple[tree.Expression, ...], span: Span) -> tree.Call:
@@ -233,7 +246,7 @@ def _parts(body: Body, node: tree.Expression, type: Type, byte: int, span: Span)
                     yield Leaf(part, BOOL, byte + at, bit)
                 else:
                     yield from _parts(body, part, inner, byte + at, span)
-        case Elementary() if base_of(type).kind in (*PLAIN, Kind.BOOL) or base_of(type).name in ("REAL", "CHAR"):
+        case Elementary() if base_of(type).kind in (*PLAIN, Kind.BOOL) or base_of(type).name in SEEN:
             yield Leaf(node, base_of(type), byte, 0)
         case _:
             raise body.report.reject(
@@ -293,4 +306,6 @@ def _size(type: Type) -> int:
         last = [(at, inner) for _, inner, at, _ in _members(type)]
         whole = 0 if not last else last[-1][0] + (1 if _is_bit(last[-1][1]) else _size(last[-1][1]))
         return whole + whole % 2
+    if type == TIME:
+        return TIME_BYTES
     return 1 if _is_bit(type) else type.size

@@ -7,8 +7,8 @@ from scanbench.check.body.receivers import Receiver
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
 from scanbench.program.program import Expr, Pou
-from scanbench.program.types import Elementary, StringType, Type
-from scanbench.program.untyped import is_untyped, settle
+from scanbench.program.types import Elementary, Member, Section, StringType, Type
+from scanbench.program.untyped import is_untyped, settle, widens
 from scanbench.syntax import tree
 from scanbench.syntax.parse_generic import TYPE_PARAMETERS
 
@@ -60,9 +60,7 @@ def method_overload(body: Body, receiver: Receiver, method: Method, node: tree.C
 def _values(body: Body, node: tree.Call) -> Values | None:
     """What is passed; None where it is wrong, which is told when the call is made."""
     try:
-        return [
-            (each, tried(body, each.value)) for each in node.arguments if each.value is not None and not each.output
-        ]
+        return [(each, tried(body, each.value)) for each in node.arguments if each.value is not None]
     except Rejected:
         return None
 
@@ -77,8 +75,12 @@ def _fit(body: Body, callee: str | Pou | None, values: Values) -> int:
     for position, (argument, value) in enumerate(values):
         pou = body.pous.functions.get(callee) if isinstance(callee, str) else callee
         generic = _of_group(body, callee, position, argument) if isinstance(callee, str) else None
-        wanted = _wanted(pou, position, argument) if generic is None else generic
-        fits = 0 if wanted is None else _fits(body, argument, value, wanted)
+        member = _member(pou, position, argument)
+        wanted = generic if generic is not None or member is None else member.type
+        if member is not None and member.section is Section.OUTPUT:
+            fits = _takes(value, member.type)
+        else:
+            fits = 0 if wanted is None else _fits(body, argument, value, wanted)
         if fits == 0:
             return -1
         total += fits
@@ -97,16 +99,23 @@ def _of_group(body: Body, key: str, position: int, argument: tree.Argument) -> s
     return spec.name.upper() if isinstance(spec, tree.NamedType) else None
 
 
-def _wanted(pou: Pou | None, position: int, argument: tree.Argument) -> Type | None:
-    """The type of the input that an argument goes to; None: there is none."""
+def _member(pou: Pou | None, position: int, argument: tree.Argument) -> Member | None:
+    """The input or output that an argument goes to; None: there is none."""
     if pou is None:
         return None
     if argument.name is not None:
-        member = pou.frame.members.get(argument.name.upper())
-    else:
-        formals = [each for each in pou.parameters if each != "THIS"]
-        member = pou.frame.members[formals[position]] if position < len(formals) else None
-    return None if member is None else member.type
+        return pou.frame.members.get(argument.name.upper())
+    formals = [each for each in pou.parameters if each != "THIS"]
+    return pou.frame.members[formals[position]] if position < len(formals) else None
+
+
+def _takes(target: Expr, output: Type) -> int:
+    """How well a variable takes an output."""
+    type = target.type
+    same = isinstance(type, StringType) and isinstance(output, StringType) and type.width == output.width
+    if type == output or same:
+        return SAME
+    return CONVERTED if type is not None and widens(output, type) else 0
 
 
 def _fits(body: Body, argument: tree.Argument, value: Expr, wanted: Type | str) -> int:

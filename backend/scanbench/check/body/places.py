@@ -10,10 +10,11 @@ from scanbench.check.body.parts import PARTED, WIDTHS, named_part, part
 from scanbench.check.body.references import target_of
 from scanbench.check.body.variables import INSTANCE, no_member
 from scanbench.check.declare.addresses import offset_of
+from scanbench.check.declare.open_references import SLOT, array_of
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
-from scanbench.program.program import Base, Load, Place
+from scanbench.program.program import Base, Expr, Load, Place
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
@@ -161,10 +162,20 @@ def _dereferenced(body: Body, node: tree.Dereference) -> Found:
     inner = node.reference
     if isinstance(inner, tree.Name) and inner.name.upper() in INSTANCE:
         return body.place(inner)
-    reference = body.expression(inner)
+    reference = plain_reference(body, body.expression(inner), node.span)
     if not isinstance(reference.type, Reference):
         raise body.report.reject("T010", f"`^` needs a reference; this is {settle(reference).type}.", node.span)
     return target_of(body, reference, node.span, shown(inner)), None
+
+
+def plain_reference(body: Body, expr: Expr, span: Span) -> Expr:
+    """The reference to the array that such a value has with its bounds; any other value as it is."""
+    record = expr.type
+    if not isinstance(record, Record) or array_of(record) is None:
+        return expr
+    if not isinstance(expr, Load):
+        raise body.report.reject("T010", f"Assign this {record} to a variable first.", span)
+    return Load(inside(expr.place, record, record.members[SLOT]))
 
 
 def inside(place: Place, record: Record, member: Member) -> Place:

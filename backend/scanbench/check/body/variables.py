@@ -12,7 +12,7 @@ from scanbench.program.program import Base, Place
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
-from scanbench.syntax.lexer import NOTHING
+from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
 
 INSTANCE = ("THIS", "SUPER")
 
@@ -20,6 +20,7 @@ INSTANCE = ("THIS", "SUPER")
 def declared(body: Body, name: str, span: Span) -> Found:
     """The variable that is declared under this name; of an input with an edge, the edge."""
     found = body.scope.find(name)
+    name = name.removeprefix(GLOBAL_MARK)
     if name.upper() in INSTANCE and (found is None or found[0].hidden):
         return body.lookup.this(body, name, span), None
     if found is None:

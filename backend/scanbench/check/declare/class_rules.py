@@ -71,7 +71,9 @@ def _check_method(method: Method, report: Report, dialect: Dialect) -> None:
         report.error("D014", f"`{above.name}` is FINAL and cannot be overridden.", declaration.span)
     if above.declaration.access == "PRIVATE":
         report.error("D014", f"`{above.name}` is PRIVATE; use another name for this one.", declaration.span)
-    if OPEN_TO[declaration.access] < OPEN_TO[above.declaration.access]:
+    # SIMATIC AX and the standard have PROTECTED where no word is written, which is PUBLIC here
+    unsaid = Allowance.OVERLOADS in dialect.allows and declaration.access == "PROTECTED"
+    if OPEN_TO[declaration.access] < OPEN_TO[above.declaration.access] and not unsaid:
         report.error(
             "D014", f"`{method.name}` is {declaration.access}, but `{above.name}` is {above.declaration.access}.",
             declaration.span,

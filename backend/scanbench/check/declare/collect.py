@@ -10,7 +10,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.later import ToDeclare
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
-from scanbench.check.declare.rewritten import inputs_of, overloaded_in, rewritten
+from scanbench.check.declare.rewritten import overloaded_in, rewritten, signature_of
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.dialect import Allowance, said
 from scanbench.check.libraries.catalogue import library_of_file
@@ -87,13 +87,13 @@ class Collector:
         table[key] = pou
 
     def _keyed(self, pou: tree.PouDeclaration) -> tuple[tree.PouDeclaration, str | None]:
-        """The POU and its key, when its name is free, or other FUNCTIONs of that name have other inputs."""
+        """The POU and its key, when its name is free, or other FUNCTIONs of that name have other inputs or outputs."""
         key = full_name(pou).upper()
         first = self.functions.get(key)
         if first is None or pou.kind != "function" or Allowance.OVERLOADS not in self.declarations.dialect.allows:
             return pou, self._first(pou.namespace, pou.name, pou.span)
         others = self.overloads.get(key, [])
-        if any(inputs_of(pou) == inputs_of(self.functions[each]) for each in (key, *others)):
+        if any(signature_of(pou) == signature_of(self.functions[each]) for each in (key, *others)):
             return pou, self._first(pou.namespace, pou.name, pou.span)
         if library_of_file(pou.span.file) is None:
             used = f"`{pou.name}` is declared in {first.span} as well"

@@ -12,22 +12,49 @@ from scanbench.syntax import tree
 
 def inputs_of(pou: tree.PouDeclaration) -> list[object]:
     """What tells FUNCTIONs or methods of one name apart: the types of their inputs and in-outs."""
+    return _types_of(pou, ("VAR_INPUT", "VAR_IN_OUT"))
+
+
+def _types_of(pou: tree.PouDeclaration, keywords: tuple[str, ...]) -> list[object]:
     return [
         each.type.name.upper() if isinstance(each.type, tree.NamedType) else type(each.type)
         for section in pou.sections
-        if section.keyword in ("VAR_INPUT", "VAR_IN_OUT")
+        if section.keyword in keywords
         for each in section.variables
     ]
 
 
+def signature_of(pou: tree.PouDeclaration) -> tuple[list[object], list[object]]:
+    """The same with the types of the outputs, by which FUNCTIONs are told apart, too."""
+    return inputs_of(pou), _types_of(pou, ("VAR_OUTPUT",))
+
+
 def overloaded_in(files: Iterable[tree.File]) -> frozenset[str]:
-    """Names, in upper case, that some class or interface has several methods of."""
+    """Names, in upper case, that some class or interface has several methods of, its own or with those that it inherits."""
     found: set[str] = set()
-    for file in files:
-        for pou in file.pous:
-            counted = Counter(each.name.upper() for each in pou.methods if each.kind == "method")
-            found |= {name for name, count in counted.items() if count > 1}
+    pous = {pou.name.upper(): pou for file in files for pou in file.pous if pou.methods}
+    for pou in pous.values():
+        counted = Counter(each.name.upper() for each in pou.methods if each.kind == "method")
+        found |= {name for name, count in counted.items() if count > 1}
+        fresh = [each for each in pou.methods if "OVERRIDE" not in each.modifiers and each.kind == "method"]
+        for above in _above(pou, pous) if fresh else ():
+            inherited = {each.name.upper(): inputs_of(each) for each in above.methods}
+            found |= {
+                name for each in fresh if inherited.get(name := each.name.upper(), wanted := inputs_of(each)) != wanted
+            }
     return frozenset(found)
+
+
+def _above(pou: tree.PouDeclaration, pous: dict[str, tree.PouDeclaration]) -> Iterable[tree.PouDeclaration]:
+    """What a class extends, and what that extends, by their names without a namespace."""
+    seen = {pou.name.upper()}
+    while pou.extends:
+        name = pou.extends[0].name.rpartition(".")[2].upper()
+        if name in seen or name not in pous:
+            return
+        seen.add(name)
+        pou = pous[name]
+        yield pou
 
 
 def rewritten(

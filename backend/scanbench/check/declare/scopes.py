@@ -1,7 +1,7 @@
 """What a name means inside a POU."""
 
 import struct
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from scanbench.check.declare.classes import Classes
 from scanbench.check.declare.later import Later
@@ -24,6 +24,7 @@ from scanbench.program.types import (
     base_of,
 )
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import GLOBAL_MARK
 
 
 @dataclass(slots=True)
@@ -54,6 +55,9 @@ class Scope:
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:
         """The member, what its offset counts from, and who owns it."""
+        if name.startswith(GLOBAL_MARK):  # what the POU declares is not meant
+            outside = replace(self, frame=None, kept={}, instance=None, externals={}, constants=())
+            return outside.find(name.removeprefix(GLOBAL_MARK))
         key = name.upper()
         for owner in self.constants:
             if self.later is not None:

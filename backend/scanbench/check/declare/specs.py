@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import MAX_BYTES, declare
+from scanbench.check.declare.open_references import open_reference
 from scanbench.check.dialect import Allowance
 from scanbench.check.vendor_sizes import tell_bytes
 from scanbench.problems import Span
@@ -159,11 +160,13 @@ def subrange(declared: Declarations, spec: tree.SubrangeSpec, name: str) -> Subr
     return Subrange(name or f"{base_name} ({low}..{high})", base.kind, base.size, low, high, base_name)
 
 
-def reference(declared: Declarations, spec: tree.ReferenceSpec) -> Reference:
-    """REF_TO, REFERENCE TO and POINTER TO."""
+def reference(declared: Declarations, spec: tree.ReferenceSpec) -> Reference | Record:
+    """REF_TO, REFERENCE TO and POINTER TO; of an array of any size a structure that has its bounds, too."""
     target = declared.referred(spec.target)
     if isinstance(target, OpenArray):
-        raise declared.report.reject("D002", "A reference needs an array with bounds, not ARRAY[*].", spec.span)
+        if spec.pointer or spec.automatic:
+            raise declared.report.reject("D002", "A reference needs an array with bounds, not ARRAY[*].", spec.span)
+        return open_reference(declared, target, spec.span)
     word = "POINTER TO" if spec.pointer else "REFERENCE TO" if spec.automatic else "REF_TO"
     return Reference(f"{word} {target.name}", Kind.REF, SLOT_BYTES, target, spec.pointer, spec.automatic)
 
