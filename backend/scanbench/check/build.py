@@ -247,7 +247,7 @@ class Checker:
         check_borrowed(self.report, self.pous.dispatchers.values())
         self.plant.check(self.parsed)
         check_policies(self.report, self.declarations, self.parsed)
-        tell_stubs(self.report, self.names.user)
+        tell_stubs(self.report, self.names.user, self.parsed)
         order = self._order([*common, *([] if whole is None else [whole.pou])])
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]

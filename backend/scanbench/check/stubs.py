@@ -3,15 +3,20 @@
 from collections.abc import Iterable
 
 from scanbench.check.context import Report
-from scanbench.check.libraries.catalogue import UNSET, library_of_file
-from scanbench.check.uses import Use
+from scanbench.check.libraries.catalogue import PLACEHOLDERS, UNSET, library_of_file
+from scanbench.check.uses import SymbolKind, Use
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
 
-def tell_stubs(report: Report, declarations: Iterable[tree.PouDeclaration]) -> None:
-    """A warning for each stub that is used outside of libraries, at the first of its uses."""
-    stubs = {f"{each.namespace}.{each.name}".lstrip(".").upper(): each for each in declarations if each.stub}
+def tell_stubs(report: Report, declarations: Iterable[tree.PouDeclaration], files: Iterable[tree.File]) -> None:
+    """A warning for each stub and placeholder that is used outside of libraries, at the first of its uses."""
+    _tell_placeholders(report, files)
+    stubs = {
+        f"{each.namespace}.{each.name}".lstrip(".").upper(): each
+        for each in declarations
+        if each.stub and library_of_file(each.span.file) != PLACEHOLDERS
+    }
     used: dict[str, list[Use]] = {}
     unset: dict[str, Span] = {}
     for user, part in (("", report), *((pou.name.upper(), part) for pou, part in report.parts.items())):
@@ -32,6 +37,37 @@ def tell_stubs(report: Report, declarations: Iterable[tree.PouDeclaration]) -> N
             "table, by a force or by a stimulus.",
             where,
         )
+
+
+def _tell_placeholders(report: Report, files: Iterable[tree.File]) -> None:
+    """A warning for each name of a library that nobody has, at the first of its uses: what it declares is only inferred."""
+    kinds: dict[tuple[SymbolKind, str], tuple[str, str]] = {}
+    for file in files:
+        if library_of_file(file.name) != PLACEHOLDERS:
+            continue
+        for name in (*(each.name for each in file.types), *(each.name for each in file.pous)):
+            kinds["pou", name.upper()] = kinds["type", name.upper()] = name, _INFERRED
+        for section in file.globals:
+            said = _ASSUMED if "CONSTANT" in section.qualifiers else _INFERRED
+            for each in section.variables:
+                kinds["variable", each.name.upper()] = each.name, said
+    if not kinds:
+        return
+    first: dict[tuple[SymbolKind, str], Span] = {}
+    for part in (report, *report.parts.values()):
+        for use in part.uses:
+            key = use.symbol.kind, use.symbol.name
+            own = use.symbol.kind != "variable" or use.symbol.owner == "GLOBAL"
+            if key in kinds and own and not library_of_file(use.span.file):
+                place = use.place.plain()
+                first[key] = min(first.get(key, place), place, key=_order)
+    for key, where in first.items():
+        name, said = kinds[key]
+        report.warn("W008", f"`{name}` is a placeholder, as its library is missing: {said}", where)
+
+
+_INFERRED = "what it has is inferred from its use, and it does nothing. Correct it in libraries/Placeholders.st, or put the library there."
+_ASSUMED = "its number is not known, and 10 is assumed. Write the right one in libraries/Placeholders.st."
 
 
 def _order(span: Span) -> tuple[str, int, int]:

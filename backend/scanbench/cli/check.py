@@ -9,14 +9,14 @@ import typer
 
 from scanbench.check.build import check_sources, program_files
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources
+from scanbench.cli.inputs import DIALECT_HELP, Sources, find_model, problem_json, read_programs
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Problem, Severity
 from scanbench.reports.junit import Case
 from scanbench.reports.junit import junit as junit_text
 from scanbench.reports.program_page import program_page
-from scanbench.reports.program_report import program_report, report_json, report_lines
+from scanbench.reports.program_report import ProgramReport, joined, program_report, report_json, report_lines
 from scanbench.syntax.language_file import STRICT, guess_dialect, is_language_file
 
 
@@ -42,15 +42,15 @@ def check(
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
     must_be_writable(html, junit)
-    sources = read_sources(paths, dialect)
-    checked = check_sources(sources.texts, find_model(model, sources))
-    problems = (*checked.problems, *problems_of(checked.program, sources.texts))
+    programs = read_programs(paths, dialect)
+    texts = {name: text for each in programs for name, text in each.texts.items()}
+    problems, reports = _checked(programs, model, bool(report or html))
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
-    told = program_report(sources.texts, problems, sources.missing) if report or html else None
+    told = joined(reports) if len(reports) > 1 else next(iter(reports), None)
     if html is not None and told is not None:
         write_text(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
     if junit is not None:
-        write_text(junit, _junit(sources.texts, problems))
+        write_text(junit, _junit(texts, problems))
     if report and told is not None:
         if format is Format.JSON:
             typer.echo(json.dumps({**report_json(told), "errors": errors}, ensure_ascii=False))
@@ -65,10 +65,30 @@ def check(
             typer.echo(f"{problem.span}: {problem.code} {severity}{problem.message}")
         others = len(problems) - errors
         note = f" ({others} warning{'s' * (others != 1)})" if others else ""
-        typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {_count(sources.texts)} file(s)", err=True)
+        typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {_count(texts)} file(s)", err=True)
         if errors:
-            _tell_dialect(sources.texts)
+            _tell_dialect(texts)
     raise typer.Exit(1 if errors else 0)
+
+
+def _checked(
+    programs: Sequence[Sources], model: str | None, report: bool
+) -> tuple[tuple[Problem, ...], list[ProgramReport]]:
+    """What is told of them, once where several programs have a file; and the report of each, if wanted."""
+    found: dict[Problem, None] = {}
+    reports = []
+    for program in programs:
+        checked = check_sources(program.texts, find_model(model, program))
+        problems = (*checked.problems, *problems_of(checked.program, program.texts))
+        # what is wrong in the files of a project that this one refers to is told of that project
+        found |= dict.fromkeys(each for each in problems if program.own is None or _of(program.own, each.span.file))
+        if report:
+            reports.append(program_report(program.texts, problems, program.missing, program.own))
+    return tuple(found), reports
+
+
+def _of(own: frozenset[str], file: str) -> bool:
+    return file in own or library_of_file(file) is not None
 
 
 def _junit(texts: Mapping[str, str], problems: Sequence[Problem]) -> str:

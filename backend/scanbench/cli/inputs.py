@@ -1,7 +1,7 @@
 """Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -17,7 +17,7 @@ from scanbench.recording.recording import Recording
 from scanbench.server.archive import unpack
 from scanbench.server.completed import completed, unknown_libraries
 from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text, twincat_projects
-from scanbench.server.twincat_project import TwinCatProject
+from scanbench.server.twincat_project import TwinCatProject, in_parts
 from scanbench.syntax.language_file import (
     DIALECTS,
     LANGUAGE_FILE,
@@ -44,6 +44,8 @@ class Sources:
     model: str | None
     missing: tuple[str, ...] = ()
     """Libraries that a project of TwinCAT refers to, of which there is no text."""
+    own: frozenset[str] | None = None
+    """Where this is one of several programs: its own files, without those of the projects that it refers to."""
 
 
 def usage(message: str) -> NoReturn:
@@ -79,13 +81,47 @@ def tell_damage(path: Path, recording: Recording) -> bool:
     return recording.lost
 
 
+@dataclass(frozen=True, slots=True)
+class _Read:
+    """What was read, before anything is added to it."""
+
+    texts: dict[str, str]
+    model: str | None
+    folder: Path
+    projects: dict[str, TwinCatProject]
+    """By path; those of a zip file by numbers."""
+
+
 def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool = True) -> Sources:
     """A file is taken whatever its ending; a folder or zip file gives every program file in it, and its own errors.
 
     `dialect` goes before what the project itself says. With `libraries`, the texts of those that the programs use are among them.
     """
+    read = _read(paths, dialect)
+    return _completed(read.texts, read, [*read.projects.values()], libraries)
+
+
+def read_programs(paths: list[Path], dialect: str | None = None) -> list[Sources]:
+    """The same, but projects of TwinCAT that are no program together one by one, each with the projects that it refers to."""
+    read = _read(paths, dialect)
+    parts = in_parts(read.texts, read.projects)
+    if not parts:
+        return [_completed(read.texts, read, [*read.projects.values()], True)]
+    made = []
+    for own, files, projects in parts:
+        part = _completed({name: text for name, text in read.texts.items() if name in files}, read, projects, True)
+        made.append(replace(part, own=own))
+    return made
+
+
+def _completed(texts: dict[str, str], read: _Read, projects: list[TwinCatProject], libraries: bool) -> Sources:
+    made = completed(texts, projects, str(read.folder)) if libraries else texts
+    return Sources(made, read.model, tuple(unknown_libraries(projects, made)))
+
+
+def _read(paths: list[Path], dialect: str | None) -> _Read:
     texts: dict[str, str] = {}
-    projects: list[TwinCatProject] = []
+    projects: dict[str, TwinCatProject] = {}
     model = None
     try:
         for path in paths:
@@ -93,11 +129,11 @@ def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool 
                 archive = unpack(_bytes(path))
                 texts |= {str(path / each): text for each, text in archive.files.items()}
                 model = model or archive.model or None
-                projects += archive.twincat
+                projects |= {str(path / str(number)): each for number, each in enumerate(archive.twincat)}
                 continue
             texts |= {str(each): read_text(each) for each in program_files(path)}
             model = model or project_model(path)
-            projects += twincat_projects(path).values() if path.is_dir() else ()
+            projects |= twincat_projects(path) if path.is_dir() else {}
     except Refused as error:
         usage(str(error))
     folder = paths[0] if paths[0].is_dir() or paths[0].suffix.lower() == ARCHIVE else paths[0].parent
@@ -112,8 +148,7 @@ def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool 
         typer.echo(
             f"scanbench: {of_format} programs by the format of their files (--dialect names a different one)", err=True
         )
-    made = completed(texts, projects, str(folder)) if libraries else texts
-    return Sources(made, model, tuple(unknown_libraries(projects, made)))
+    return _Read(texts, model, folder, projects)
 
 
 def _bytes(path: Path) -> bytes:

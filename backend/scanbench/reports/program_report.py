@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.build import program_files
-from scanbench.check.libraries.catalogue import NO_CODE, library_of_file
+from scanbench.check.libraries.catalogue import NO_CODE, PLACEHOLDERS, library_of_file
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
 from scanbench.syntax.constructs import count_constructs
@@ -32,6 +32,8 @@ class FileReport:
     """POUs that would run: neither they nor anything that they use has an error."""
     stubbed: int
     """Of these, POUs that use a stub, by whatever way."""
+    placeheld: int
+    """Of those that run, POUs that use a placeholder of a missing library, by whatever way."""
     supported: Counter[str]
     refused: Counter[str]
     errors: int
@@ -88,12 +90,19 @@ STUB = "W008"
 
 
 def program_report(
-    sources: Mapping[str, str], problems: Sequence[Problem], missing: Collection[str] = ()
+    sources: Mapping[str, str],
+    problems: Sequence[Problem],
+    missing: Collection[str] = (),
+    own: Collection[str] | None = None,
 ) -> ProgramReport:
-    """The report of a program of these files, in which its check found these problems. `missing` are libraries without a text."""
+    """The report of a program of these files, in which its check found these problems. `missing` are libraries without a text. With
+    `own`, only these files are reported, and what is wrong in them."""
     texts, defined = program_files(sources), defined_in(sources)
     trees = {name: parse_file(Source(name, text, defined=defined))[0] for name, text in texts.items()}
     files = _files(trees, texts, problems)
+    if own is not None:
+        files = [each for each in files if each.name in own]
+        problems = [each for each in problems if each.span.file in own]
     errors = [each for each in problems if each.severity is Severity.ERROR]
     return ProgramReport(
         tuple(files),
@@ -102,6 +111,29 @@ def program_report(
         tuple(missing),
         tuple(each for each in problems if each.code == STUB),
     )
+
+
+def joined(reports: Sequence[ProgramReport]) -> ProgramReport:
+    """The report of several programs that are looked at together, none of which has a file of another."""
+    same: dict[tuple[str, str], list[Cause]] = {}
+    for each in (cause for report in reports for cause in report.causes):
+        same.setdefault((each.code, _NAMED.sub("`_`", each.message)), []).append(each)
+    causes = []
+    for (code, general), found in same.items():
+        message = found[0].message if len({each.message for each in found}) == 1 else general
+        places = tuple(place for each in found for place in each.places)
+        causes.append(Cause(code, message, places, sum(each.pous for each in found)))
+    return ProgramReport(
+        tuple(each for report in reports for each in report.files),
+        tuple(sorted(causes, key=_rank)),
+        tuple(sorted({each for report in reports for each in report.libraries})),
+        tuple(sorted({each for report in reports for each in report.missing}, key=str.lower)),
+        tuple(each for report in reports for each in report.stubs),
+    )
+
+
+def _rank(cause: Cause) -> tuple[int, int, str, str]:
+    return -cause.pous, -len(cause.places), cause.code, cause.message
 
 
 def _causes(errors: Sequence[Problem], trees: Mapping[str, tree.File]) -> tuple[Cause, ...]:
@@ -114,7 +146,7 @@ def _causes(errors: Sequence[Problem], trees: Mapping[str, tree.File]) -> tuple[
         pous = {(each.span.file, bisect(begins.get(each.span.file, []), each.span.line)) for each in found}
         message = found[0].message if len({each.message for each in found}) == 1 else general
         made.append(Cause(code, message, tuple(each.span for each in found), len(pous)))
-    return tuple(sorted(made, key=lambda each: (-each.pous, -len(each.places), each.code, each.message)))
+    return tuple(sorted(made, key=_rank))
 
 
 def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
@@ -124,6 +156,8 @@ def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: S
     every = [each for own in units.values() for each in own]
     stopped = _reached(every, [each for each in every if each.wrong])
     stubbed = _reached(every, [each for each in every if each.stub])
+    held = [each for name, own in units.items() if library_of_file(name) == PLACEHOLDERS for each in own]
+    placeheld = _reached(every, held)
     made = []
     for name, file in files.items():
         if library_of_file(name):
@@ -134,8 +168,9 @@ def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: S
         clean = sum(not each.wrong for each in pous)
         run = [each for each in pous if id(each) not in stopped]
         with_stubs = sum(id(each) in stubbed for each in run)
-        others = len(own) - refused.total()
-        made.append(FileReport(name, len(pous), clean, len(run), with_stubs, count_constructs(file), refused, others))
+        with_held = sum(id(each) in placeheld for each in run)
+        counts = len(pous), clean, len(run), with_stubs, with_held
+        made.append(FileReport(name, *counts, count_constructs(file), refused, len(own) - refused.total()))
     return made
 
 
@@ -214,6 +249,10 @@ def pou_lines(whole: FileReport) -> list[str]:
     ]
     if whole.stubbed:
         lines.append(f"{whole.stubbed} of these {whole.run} use stubs, whose results the user sets")
+    if whole.placeheld:
+        lines.append(
+            f"{whole.placeheld} of these {whole.run} use placeholders: what a missing library declares is inferred from its use"
+        )
     lines.append(f"{whole.clean} of {whole.pous} POUs ({_share(whole.clean, whole.pous)}) have no error of their own")
     return lines
 
@@ -230,6 +269,7 @@ def report_json(report: ProgramReport) -> dict[str, object]:
             "pous_without_errors": each.clean,
             "pous_that_run": each.run,
             "pous_that_run_with_stubs": each.stubbed,
+            "pous_that_run_with_placeholders": each.placeheld,
         }
         for each in report.files
     ]
@@ -249,9 +289,10 @@ def whole_of(reports: Sequence[FileReport]) -> FileReport:
     for each in reports:
         supported += each.supported
         refused += each.refused
-    counts = [(each.pous, each.clean, each.run, each.stubbed, each.errors) for each in reports]
-    pous, clean, run, stubbed, errors = map(sum, zip((0, 0, 0, 0, 0), *counts, strict=True))
-    return FileReport("all", pous, clean, run, stubbed, supported, refused, errors)
+    counts = [(each.pous, each.clean, each.run, each.stubbed, each.placeheld, each.errors) for each in reports]
+    *sums, errors = map(sum, zip((0, 0, 0, 0, 0, 0), *counts, strict=True))
+    pous, clean, run, stubbed, placeheld = sums
+    return FileReport("all", pous, clean, run, stubbed, placeheld, supported, refused, errors)
 
 
 def _share(part: int, whole: int) -> str:

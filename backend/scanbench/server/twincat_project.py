@@ -85,3 +85,51 @@ def missing_libraries(projects: Collection[TwinCatProject], known: Collection[st
     own = {name.lower() for project in projects for name in project.names} | {name.lower() for name in known}
     wanted = {name for project in projects for name, _ in project.references if name.lower() not in own}
     return sorted(wanted, key=str.lower)
+
+
+def in_parts(
+    files: Collection[str], projects: Mapping[str, TwinCatProject]
+) -> list[tuple[frozenset[str], frozenset[str], list[TwinCatProject]]]:
+    """The programs of these projects, where they are several: with two of them that compile a file of one name, which is that of what it
+    declares, there is no program of them all. Of each its own files; these, and those of the projects that it refers to, by whatever
+    way; and these projects. Empty where all of them are one program."""
+    compiled = {path: _files_of(path, each, files) for path, each in projects.items()}
+    names = [posixpath.basename(each).lower() for own in compiled.values() for each in own]
+    if len(names) == len(set(names)):
+        return []
+    made = []
+    for path, project in projects.items():
+        used, open_ = {path: project}, [project]
+        while open_:
+            wanted = {name.lower() for name, _ in open_.pop().references}
+            fresh = {
+                other: each
+                for other, each in projects.items()
+                if other not in used and wanted & {name.lower() for name in (*each.names, _stem(other))}
+            }
+            used |= fresh
+            open_ += fresh.values()
+        shared = {each for own in compiled.values() for each in own}
+        own = {
+            posixpath.basename(each).lower() for each in compiled[path]
+        }  # its names go before those of its libraries
+        with_used = {
+            each
+            for other in used
+            for each in compiled[other]
+            if other == path or posixpath.basename(each).lower() not in own
+        }
+        loose = {each for each in files if each not in shared and not each.lower().endswith(XML_ENDINGS)}
+        if compiled[path]:
+            made.append((frozenset(compiled[path]), frozenset(with_used | loose), list(used.values())))
+    return made
+
+
+def _stem(path: str) -> str:
+    return posixpath.basename(path.replace("\\", "/")).rpartition(".")[0]
+
+
+def _files_of(path: str, project: TwinCatProject, files: Collection[str]) -> list[str]:
+    folder = posixpath.dirname(path.replace("\\", "/"))
+    wanted = {posixpath.normpath(posixpath.join(folder, each)).lower() for each in project.compiled}
+    return [each for each in files if each.replace("\\", "/").lower() in wanted and each.lower().endswith(XML_ENDINGS)]

@@ -113,3 +113,35 @@ def test_programs_of_a_twincat_project_run_as_often_as_its_tasks_say(project: Pa
     assert ran.returncode == 0, ran
     assert ran.stdout.split() == ["MAIN.n", "=", "10", "Slow.n", "=", "2", "Idle.n", "=", "0"]
     assert "0.02 s of PLC time" in ran.stderr
+
+
+def test_a_project_runs_with_placeholders_for_a_library_that_nobody_has(project: Path) -> None:
+    main = exported(
+        "PROGRAM MAIN\nVAR belt : Parts.FB_Belt; n : INT; END_VAR",
+        "belt(bRun := n < 3, nSpeed => n);\nn := n + Parts.F_Twice(n);",
+    )
+    (project / "line/POUs/MAIN.TcPOU").write_text(main)
+    options = ("--dialect", "twincat", "--scans", "2", "--print", "MAIN.n")
+    ran = scanbench("run", str(project / "line"), *options, "--set", "Stub_F_Twice=7", "--set", "MAIN.belt.nSpeed=5")
+    assert (ran.returncode, ran.stdout.split()) == (0, ["MAIN.n", "=", "12"]), ran
+    found = scanbench("check", str(project / "line"), "--dialect", "twincat", "--report")
+    assert "1 of these 1 use placeholders" in found.stdout
+    assert found.returncode == 0
+
+
+def test_projects_that_are_no_program_together_are_reported_one_by_one(project: Path) -> None:
+    (project / "parts/Parts.plcproj").write_text(
+        "<Project><PropertyGroup><Name>Parts</Name></PropertyGroup><ItemGroup>"
+        '<Compile Include="Twice.TcPOU" /><Compile Include="MAIN.TcPOU" /></ItemGroup></Project>'
+    )
+    (project / "parts/MAIN.TcPOU").write_text(exported("PROGRAM MAIN\nVAR n : INT; END_VAR", "n := Twice(4);"))
+    found = scanbench("check", str(project), "--dialect", "twincat", "--report")
+    assert "3 of 3 POUs (100.0 %) run" in found.stdout, found
+    assert found.returncode == 0
+    (project / "parts/Twice.TcPOU").write_text(
+        exported("FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR", "Twice := y;")
+    )
+    wrong = scanbench("check", str(project), "--dialect", "twincat")
+    assert [line for line in wrong.stdout.splitlines() if " W0" not in line] == [
+        f"{project}/parts/Twice.TcPOU:2:82: T001 `y` is not declared."
+    ]

@@ -19,6 +19,8 @@ from scanbench.syntax.source import Source
 
 FOLDER = "libraries"
 """Of a project: the file `libraries/Util.st` is the library `Util`, whose name may be written before what it declares."""
+PLACEHOLDERS = "Placeholders"
+"""The library that takes the place of those that a project refers to and nobody has."""
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "__HEAP": ("codesys", "twincat"),
     "__SYSTEM": ("codesys", "twincat"),

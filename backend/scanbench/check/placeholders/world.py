@@ -1,0 +1,174 @@
+"""What the files of a project declare, by name, and the names that none of them has."""
+
+import re
+from collections.abc import Iterable, Sequence
+
+from scanbench.check.declare.vendor_types import VENDOR_TYPES
+from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, of_type, variables
+from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.standard.library import library
+from scanbench.program.types import ELEMENTARY
+from scanbench.syntax import tree
+
+CONVERSION = re.compile(r"(?:(\w+?)_)?TO_(\w+)")
+ENUMERATION = re.compile(r"(?:E|EN|ENUM)_\w+|[Ee][A-Z][a-z]\w*")
+"""What an enumeration is called: its values are written with its name in front, as are variables of a list."""
+LIST = re.compile(
+    r"(?:G|GC|P|GP|T)?VL?_\w+|\w*GVL\w*|GC_\w+|Par(?:am)?_\w+|\w*(?:Constants?|Parameters?|ParameterList|Globals?)",
+    re.IGNORECASE,
+)
+"""What a list of global variables is called."""
+INTERFACE = re.compile(r"I_\w+|I[A-Z][a-z]\w*")
+_OPERATORS = frozenset(
+    "ADR BITADR SIZEOF XSIZEOF TRUNC TRUNC_INT REF THIS SUPER NULL TEST_AND_SET UPPER_BOUND LOWER_BOUND INDEXOF "
+    "ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE STRING WSTRING TIME LTIME EN ENO".split()
+)
+
+
+class World:
+    """The declarations of all files, and what was found of names that none has."""
+
+    def __init__(self, files: Iterable[tree.File], prefixes: frozenset[str], missing: Iterable[str]) -> None:
+        self.types: dict[str, tree.TypeDeclaration | tree.PouDeclaration] = {}
+        self.functions: dict[str, tree.PouDeclaration] = {}
+        self.globals: dict[str, tree.TypeSpec] = {}
+        self.lists: set[str] = set()
+        self.values: dict[str, tree.NamedType] = {}
+        self.prefixes = {*prefixes, *(each.upper() for each in missing)}
+        self.unknown: dict[str, Unknown] = {}
+        self.unknown_functions: dict[str, tuple[str, Signature]] = {}
+        self.unknown_globals: dict[str, Member] = {}
+        self.unknown_lists: dict[str, str] = {}
+        """Names that are written before global variables."""
+        self.fixed: set[str] = set()
+        """Names that would have to be a number before anything runs, as a bound of an array: use says nothing of it."""
+        for file in (*files, *library()):
+            self._take(file)
+
+    def _take(self, file: tree.File) -> None:
+        for each in file.types:
+            self.types[each.name.upper()] = each
+            if isinstance(each.type, tree.EnumSpec):
+                for name, _, span in each.type.values:
+                    self.values.setdefault(name.upper(), tree.NamedType(each.name, span))
+        for pou in file.pous:
+            table = self.functions if pou.kind == "function" else self.types
+            table[pou.name.upper()] = pou
+            self.prefixes |= {pou.namespace.upper()} if pou.namespace else set()
+        for section in file.globals:
+            self.lists |= {section.list_name.upper()} if section.list_name else set()
+            for variable in section.variables:
+                self.globals.setdefault(variable.name.upper(), variable.type)
+                if section.list_name:
+                    self.globals[f"{section.list_name}.{variable.name}".upper()] = variable.type
+
+    def has_type(self, name: str) -> bool:
+        """Whether something declares the type."""
+        return name in self.types or name in ELEMENTARY or name in VENDOR_TYPES or name in _OPERATORS
+
+    def has_function(self, name: str) -> bool:
+        """Whether it is a function, a conversion or an operator that exists."""
+        known = name in self.functions or name in FUNCTIONS or name in _OPERATORS or name.startswith("__")
+        found = CONVERSION.fullmatch(name)
+        return known or name.partition("_")[0] in FUNCTIONS or (found is not None and found[2] in ELEMENTARY)
+
+    def is_list(self, name: str) -> bool:
+        """Whether it is called like a list of global variables, and is nothing else."""
+        key = name.upper()
+        known = key in self.globals or key in self.types or self.has_function(key) or key in self.unknown
+        return key in self.unknown_lists or (not known and LIST.fullmatch(name) is not None)
+
+    def listed(self, owner: str, name: str) -> Member:
+        """The variable of this name in a list."""
+        self.unknown_lists.setdefault(owner.upper(), owner)
+        return self.unknown_globals.setdefault(name.upper(), Member(name, Shape()))
+
+    def bare(self, name: str) -> str:
+        """A name without those of libraries and lists before it."""
+        first, point, rest = name.partition(".")
+        return self.bare(rest) if point and first.upper() in self.prefixes else name
+
+    def resolved(self, spec: tree.TypeSpec | None) -> tree.TypeSpec | tree.PouDeclaration | Unknown | None:
+        """What a type is, past its names."""
+        for _ in range(20):
+            if not isinstance(spec, tree.NamedType):
+                return spec
+            name = self.bare(spec.name)
+            key = name.upper()
+            declared = self.types.get(key)
+            if declared is None:
+                return (
+                    spec
+                    if self.has_type(key) or "." in name
+                    else self.unknown.setdefault(key, Unknown(name, interface=INTERFACE.fullmatch(name) is not None))
+                )
+            if isinstance(declared, tree.PouDeclaration):
+                return declared
+            if isinstance(declared.type, tree.EnumSpec | tree.SubrangeSpec):
+                return spec
+            spec = declared.type
+        return None
+
+    def bases(self, pou: tree.PouDeclaration) -> Sequence[tree.PouDeclaration | Unknown]:
+        """What a block or interface extends, and what these do."""
+        made: list[tree.PouDeclaration | Unknown] = []
+        open_ = [pou]
+        while open_:
+            for each in (base for one in [open_.pop()] for base in one.extends):
+                found = self.resolved(each)
+                if isinstance(found, Unknown):
+                    made.append(found)
+                elif isinstance(found, tree.PouDeclaration) and found not in made:
+                    made.append(found)
+                    open_.append(found)
+        return made
+
+    def unknown_base(self, pou: tree.PouDeclaration) -> Unknown | None:
+        """The type without a declaration that a block comes from."""
+        return next((each for each in self.bases(pou) if isinstance(each, Unknown)), None)
+
+    def part(self, shape: Shape, name: str) -> Shape:
+        """`shape.name`."""
+        spec = shape.known
+        if spec is None:
+            return shape.root.members.setdefault(name.upper(), Member(name, Shape())).shape
+        found = self.resolved(spec)
+        if isinstance(found, tree.ReferenceSpec):
+            return self.part(of_type(found.target), name)
+        if isinstance(found, Unknown):
+            return found.member(name).shape
+        if isinstance(found, tree.StructSpec):
+            own = next((each.type for each in found.members if each.name.upper() == name.upper()), None)
+            if own is None and found.extends is not None:
+                return self.part(of_type(found.extends), name)
+            return of_type(own)
+        return self._of_block(found, name) if isinstance(found, tree.PouDeclaration) else Shape()
+
+    def _of_block(self, block: tree.PouDeclaration, name: str) -> Shape:
+        key = name.upper()
+        for each in (block, *self.bases(block)):
+            if isinstance(each, Unknown):
+                return each.member(name).shape
+            own = next((it.type for _, it in variables(each) if it.name.upper() == key), None)
+            getter = next((it.result for it in each.methods if it.name.upper() == key and it.kind != "method"), None)
+            if own is not None or getter is not None:
+                return of_type(own or getter)
+        return Shape()
+
+    def method(self, owner: Shape, name: str) -> Signature | tree.PouDeclaration | None:
+        """`owner.name(...)`."""
+        found = self.resolved(owner.known)
+        if isinstance(found, tree.ReferenceSpec):
+            return self.method(of_type(found.target), name)
+        if isinstance(found, Unknown):
+            found.block = True
+            return found.method(name)
+        if not isinstance(found, tree.PouDeclaration):
+            return None
+        for each in (found, *self.bases(found)):
+            if isinstance(each, Unknown):
+                return each.method(name)
+            own = next((it for it in each.methods if it.name.upper() == name.upper()), None)
+            if own is not None:
+                return own
+        return None

@@ -1,0 +1,91 @@
+"""What use says of the names of a library that nobody has."""
+
+from scanbench.check.build import check_sources
+from scanbench.check.dialect_table import dialect_in
+from scanbench.check.placeholders.placeholders import PATH, placeholders
+from scanbench.problems import Problem, Severity
+from scanbench.reports.program_report import pou_lines, program_report, whole_of
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
+from tests.caseformat import MODELS
+
+MACHINE = """TYPE ST_Recipe : STRUCT speed : REAL; count : INT; END_STRUCT END_TYPE
+INTERFACE I_Listener
+METHOD Heard : BOOL
+VAR_INPUT what : I_Event; END_VAR
+END_METHOD
+END_INTERFACE
+FUNCTION_BLOCK FB_Belt EXTENDS FB_Device IMPLEMENTS I_Listener
+VAR_INPUT wanted : REAL; END_VAR
+VAR drive : FB_Drive(3); status : E_Status; END_VAR
+drive(enable := bEnabled, speed := wanted, recipe := recipe, done => done);
+IF drive.status.bReady AND NOT done THEN status := E_Status.Running; ELSE status := E_Status.Waiting; END_IF
+CASE status OF
+  E_Status.Running: n := n + drive.cycles;
+  E_Status.Waiting: n := F_Next(n, ADR(recipe));
+END_CASE
+LogMessage('belt', n);
+END_FUNCTION_BLOCK
+PROGRAM MAIN
+VAR belt : FB_Belt; i : INT; lists : ARRAY[1..Param_Parts.MAX_PARTS] OF REAL; END_VAR
+belt(wanted := GVL_Parts.rSpeed);
+FOR i := 1 TO Param_Parts.MAX_PARTS DO lists[i] := lists[i] + GVL_Parts.rSpeed; END_FOR
+GVL_Parts.stState.nCount := GVL_Parts.stState.nCount + 1;
+IF Parts.FB_Thing.SIZE > 2 THEN ; END_IF
+END_PROGRAM
+"""
+METHODS = """METHOD Heard : BOOL
+VAR_INPUT what : I_Event; END_VAR
+Heard := what <> 0;
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM MAIN"""
+
+
+def checked(machine: str) -> tuple[str, dict[str, str], tuple[Problem, ...]]:
+    """The text of the placeholders, all files, and what is told of them."""
+    sources = {"machine.st": machine, LANGUAGE_FILE: language_text("twincat", ["Parts"])}
+    found = placeholders(sources, ["Parts"], dialect_in(sources).prefixes)
+    assert found is not None
+    text, names = found
+    sources |= {PATH: text, LANGUAGE_FILE: language_text("twincat", ["Parts", *names])}
+    return text, sources, check_sources(sources, MODELS["GENERIC-IEC"]).problems
+
+
+def test_use_says_what_a_library_declares() -> None:
+    machine = MACHINE.replace("IF Parts.FB_Thing.SIZE > 2 THEN ; END_IF\n", "")
+    machine = machine.replace("VAR drive", "VAR recipe : ST_Recipe; done : BOOL; n : DINT; drive")
+    machine = machine.replace("END_FUNCTION_BLOCK\nPROGRAM MAIN", METHODS)
+    text, sources, problems = checked(machine)
+    assert [each for each in problems if each.severity is Severity.ERROR] == []
+    one = " ".join(text.split())
+    assert (
+        "FUNCTION_BLOCK FB_Drive {stub} VAR_INPUT enable : BOOL; speed : REAL; recipe : ST_Recipe; status : FB_Drive_status_Placeholder; cycles : DINT; END_VAR VAR_OUTPUT done : BOOL; END_VAR"
+        in one
+    )
+    assert "FUNCTION_BLOCK FB_Device {stub} VAR_INPUT bEnabled : BOOL; END_VAR" in one
+    assert "METHOD PUBLIC FB_init : BOOL VAR_INPUT bInitRetains, bInCopyCode : BOOL; in1 : DINT; END_VAR" in one
+    assert "FUNCTION F_Next : DINT {stub} VAR_INPUT in1 : DINT; END_VAR VAR_INPUT in2 : PVOID; END_VAR" in one
+    assert "{attribute 'qualified_only'} E_Status : (Running, Waiting);" in one
+    assert "INTERFACE I_Event END_INTERFACE" in one
+    assert "VAR_GLOBAL CONSTANT MAX_PARTS : INT := 10; END_VAR" in one
+    assert "rSpeed : REAL; stState : stState_Placeholder;" in one
+    told = [each.message for each in problems if each.code == "W008"]
+    assert any("`MAX_PARTS` is a placeholder" in each and "10 is assumed" in each for each in told)
+    assert any("`FB_Drive` is a placeholder, as its library is missing" in each for each in told)
+    lines = pou_lines(whole_of(program_report(sources, problems, ["Parts"]).files))
+    assert lines[0].startswith("3 of 3 POUs")
+    assert "3 of these 3 use placeholders: what a missing library declares is inferred from its use" in lines
+
+
+def test_a_mistake_in_what_the_project_declares_stays_one() -> None:
+    text, _, problems = checked(
+        "PROGRAM MAIN\nVAR b : FB_Drive; n : INT; END_VAR\nb(go := TRUE);\nn := 'text';\nEND_PROGRAM\n"
+    )
+    assert "FB_Drive" in text
+    assert [each.code for each in problems if each.severity is Severity.ERROR] == ["T002"]
+
+
+def test_nothing_is_written_where_every_name_is_declared() -> None:
+    assert (
+        placeholders({"m.st": "PROGRAM MAIN\nVAR n : INT; END_VAR\nn := ABS(n);\nEND_PROGRAM\n"}, ["Parts"], []) is None
+    )
