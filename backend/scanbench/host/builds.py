@@ -98,10 +98,12 @@ class Builds:
             except Exception as error:  # as above
                 refusal = f"the build failed: {self._why(error)}"
         refusal = refusal or loop.change_refusal(program)
-        forgotten = [each for each in change.lost if each.reason not in (NEW, REMOVED)]
+        forgotten = change.forgotten
         others = [each for each in change.lost if each.reason in (NEW, REMOVED)]
         lost = tuple((forgotten + others)[:LOST_LIMIT])
-        self._link.post(protocol.Previewed(preview.ref, change.kept, lost, len(change.lost), len(forgotten), refusal))
+        self._link.post(
+            protocol.Previewed(preview.ref, change.counted, lost, len(change.lost), len(forgotten), refusal)
+        )
 
     def _observe(self, submit: protocol.Submit, loop: Loop) -> None:
         with self._building:

@@ -28,6 +28,7 @@ from scanbench.program.types import (
     Type,
 )
 from scanbench.public import Public
+from scanbench.runtime.counted_variables import Counted, counted
 from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import UnknownPath, resolve
 
@@ -52,18 +53,22 @@ class Lost(Public):
 
 @dataclass(slots=True)
 class Change:
-    """What became, or would become, of the variables: values kept, and what was not."""
+    """What became, or would become, of the variables."""
 
     kept: int = 0
+    """Values that go over, one by one: of each member of an instance, also of those that the compiler made."""
     lost: list[Lost] = field(default_factory=list)
+    counted: Counted = field(default_factory=Counted)
+    """In numbers for people."""
 
-    def __str__(self) -> str:
-        removed = sum(each.reason == REMOVED for each in self.lost)
-        initialised = len(self.lost) - removed
-        parts = [f"{self.kept} variables kept"]
-        parts += [f"{initialised} new or changed: initialised"] * (initialised > 0)
-        parts += [f"{removed} removed"] * (removed > 0)
-        return ", ".join(parts)
+    @property
+    def forgotten(self) -> list[Lost]:
+        """What has a value now and begins again."""
+        return [each for each in self.lost if each.reason not in (NEW, REMOVED)]
+
+    def paths(self, reason: str) -> list[str]:
+        """What is lost for this reason."""
+        return [each.path for each in self.lost if each.reason == reason]
 
 
 def changes(old: Program, new: Program) -> Change:
@@ -101,6 +106,8 @@ def migrate(old: Program, old_memory: bytes | bytearray | memoryview, new: Progr
             carrier.record(instance.name, known.pou.instance, known.offset, instance.pou.instance, instance.offset)
     hidden = {instance.name.upper() for instance in (*old.common, *old.life)}
     change.lost += [Lost(each.name, REMOVED) for name, each in before.items() if name not in hidden]
+    forgotten = [each.path for each in change.forgotten]
+    change.counted = counted(old, new, forgotten, change.paths(NEW), change.paths(REMOVED))
     return change
 
 

@@ -31,7 +31,7 @@ class ProgramChange(Command):
         image, change = swapped(view.program, view.memory, loaded.program, fresh)
         image[Layout.MODE] = Mode.MONITOR  # what is forced stays so, also where nobody may force it again
         patches, released = _forces(view, View(loaded.program, image))
-        report = f"program version {self.version}: {_WARM if fresh else change}"
+        report = f"program version {self.version}: {_WARM if fresh else change.counted}"
         if released:
             report += f"; forces released: {', '.join(released)}"
         return Plan(patches, report, Swapped(self.version, fresh, released))

@@ -125,7 +125,12 @@ class OnlineChange(Wire):
 
     instance: int
     name: str
-    kept: int
+    kept: int = Field(
+        description="variables that keep their value, as programs and globals declare them: an instance counts once"
+    )
+    reinitialized: int = Field(description="what has a value now and begins again, also within a variable")
+    new: int
+    removed: int
     lost: tuple[Lost, ...] = Field(description="at most 500; `lost_count` says how many there are")
     lost_count: int
     refusal: str = Field(description="why this PLC cannot be changed now (mode RUN, say); empty when it can")

@@ -93,9 +93,9 @@ def build_result(outcome: BuildOutcome) -> wire.BuildResult:
 
 
 def _change(change: Change) -> wire.OnlineChange:
-    found = change.previewed
+    found, counted = change.previewed, change.previewed.counted
     return wire.OnlineChange(
-        instance=change.instance, name=change.name, kept=found.kept,
+        instance=change.instance, name=change.name, kept=counted.kept, reinitialized=counted.reinitialised, new=counted.new, removed=counted.removed,
         lost=found.lost, lost_count=found.lost_count, refusal=found.refusal,
     )  # fmt: skip
 

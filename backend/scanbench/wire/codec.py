@@ -62,6 +62,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.copy_areas import CopyAreas
+from scanbench.runtime.counted_variables import Counted
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, ForceSeveral, Release
 from scanbench.runtime.holds import HELD
 from scanbench.runtime.migrate_image import Lost
@@ -113,7 +114,7 @@ _CLASSES: dict[str, type] = {
     for cls in (
         Active, ClearErrorLog, ClearErrors, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
-        Lost, LostScans, RecordingInfo, Restart, Restarted, SetClock, Swapped,
+        Counted, Lost, LostScans, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,

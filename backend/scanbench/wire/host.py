@@ -19,6 +19,7 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.public import Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.command import Command, Entry
+from scanbench.runtime.counted_variables import Counted
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.trap import TrapInfo
@@ -360,7 +361,7 @@ class Previewed:
     """
 
     ref: int
-    kept: int
+    counted: Counted
     lost: tuple[Lost, ...]
     lost_count: int
     forgets: int

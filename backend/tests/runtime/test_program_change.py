@@ -57,7 +57,9 @@ def test_what_would_be_lost_is_known_before() -> None:
         **{f"Main.p[{i},{j}].y": "type changed from INT to REAL" for i in (0, 1) for j in (2, 3)},
     }
     assert found.kept == 8  # total, n, c.calls, temp, four x
-    assert str(found) == "8 variables kept, 8 new or changed: initialised, 1 removed"
+    assert (
+        str(found.counted) == "5 variables kept, 8 new or changed: initialised, 1 removed"
+    )  # total, LIMIT, n, c, temp
     assert not changes(program(OLD), program(OLD)).lost
 
 
@@ -83,6 +85,21 @@ def test_a_program_more_or_less() -> None:
     two = OLD + "PROGRAM Other VAR k : INT; END_VAR k := k + 1; END_PROGRAM\n"
     assert [(each.path, each.reason) for each in changes(program(OLD), program(two)).lost] == [("Other", "new")]
     assert [(each.path, each.reason) for each in changes(program(two), program(OLD)).lost] == [("Other", "removed")]
+
+
+def test_variables_are_counted_as_they_are_declared() -> None:
+    none = "PROGRAM Main\nEND_PROGRAM\n"
+    eight = none.replace(
+        "\n",
+        "\nVAR start AT CIO0.00 : BOOL; stop, motor, ready, full : BOOL; ton1 : TON; ctu1 : CTU; parts : INT; END_VAR\n",
+        1,
+    )
+    both = eight + "PROGRAM Other VAR_EXTERNAL END_VAR VAR k : INT; END_VAR k := k + 1; END_PROGRAM\n"
+    old, new, more = program(none), program(eight), program(both)
+    counted = [changes(*each).counted for each in ((old, new), (new, new), (new, old), (new, more), (more, new))]
+    assert [(each.kept, each.reinitialised, each.new, each.removed) for each in counted] == [
+        (0, 0, 8, 0), (8, 0, 0, 0), (0, 0, 0, 8), (8, 0, 1, 0), (8, 0, 0, 1),
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("engine", ENGINES)

@@ -17,7 +17,7 @@ WRONG: dict[str, tuple[dict[str, object], str]] = {
         {"type": "generate", "errors": [{"id": "battery-error"}], "ids": []},
         "generate.ids is unknown",
     ),
-    "value of another type": ({"type": "restart", "kind": "hot"}, "restart.kind: "),
+    "value of another type": ({"type": "restart", "kind": "hot"}, "restart.kind has to be one of these: cold"),
     "too large a number": ({"type": "disturb", "kind": "late", "scans": 10**30}, "disturb.scans: "),
 }
 

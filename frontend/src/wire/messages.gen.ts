@@ -7177,7 +7177,10 @@ export interface components {
         OnlineChange: {
             /** Instance */
             instance: number;
-            /** Kept */
+            /**
+             * Kept
+             * @description variables that keep their value, as programs and globals declare them: an instance counts once
+             */
             kept: number;
             /**
              * Lost
@@ -7188,11 +7191,20 @@ export interface components {
             lost_count: number;
             /** Name */
             name: string;
+            /** New */
+            new: number;
             /**
              * Refusal
              * @description why this PLC cannot be changed now (mode RUN, say); empty when it can
              */
             refusal: string;
+            /**
+             * Reinitialized
+             * @description what has a value now and begins again, also within a variable
+             */
+            reinitialized: number;
+            /** Removed */
+            removed: number;
         };
         /** OpenCell */
         OpenCell: {

@@ -6,6 +6,9 @@ const plc = (instance: number, name: string, refusal = ""): OnlineChange => ({
   instance,
   name,
   kept: 58,
+  reinitialized: 1,
+  new: 1,
+  removed: 1,
   lost: [
     { path: "Main.shift", reason: "type changed from INT to TIME" },
     { path: "Main.extra", reason: "new" },
@@ -22,8 +25,8 @@ describe("online change", () => {
   it("lists the variables that are not kept: only a changed type loses a value", () => {
     expect(fates(one).reinitialized.map(({ path }) => path)).toEqual(["Main.shift"]);
     expect(changeNote(one)).toBe("58 kept, 1 reinitialized, 1 new, 1 removed");
-    expect(changeNote({ ...one, lost: [], lost_count: 0 })).toBe("58 kept");
-    expect(changeNote({ ...one, lost_count: 700 })).toContain("and 697 more");
+    expect(changeNote({ ...one, reinitialized: 0, new: 0, removed: 0 })).toBe("58 kept");
+    expect(changeNote({ ...one, new: 8 })).toBe("58 kept, 1 reinitialized, 8 new, 1 removed");
   });
 
   it("names on the button the PLCs that are changed", () => {

@@ -20,12 +20,9 @@ function fateOf({ reason }: LostVariable): Fate {
 
 /** `58 kept, 1 reinitialized, 1 removed`. */
 export function changeNote(change: OnlineChange): string {
-  const sorted = fates(change);
-  const parts = FATES.filter((fate) => sorted[fate].length > 0).map((fate) =>
-    t(`change.note.${fate}`, { count: grouped(sorted[fate].length) }),
+  const parts = FATES.filter((fate) => change[fate] > 0).map((fate) =>
+    t(`change.note.${fate}`, { count: grouped(change[fate]) }),
   );
-  const more = change.lost_count - change.lost.length;
-  if (more > 0) parts.push(t("change.more", { count: grouped(more) }));
   return [t("change.kept", { count: grouped(change.kept) }), ...parts].join(", ");
 }
 
