@@ -62,8 +62,8 @@ def describe(wanted: Disturbance) -> str:
         case _:
             what += f", {bit}"
     if not wanted.probability:
-        return what + ("" if wanted.scan is None else f", once in scan {wanted.scan}")
-    begin = "" if wanted.scan is None else f" from scan {wanted.scan} on"
+        return what + ("" if wanted.scan is None else f", once in scan {wanted.scan:,}")
+    begin = "" if wanted.scan is None else f" from scan {wanted.scan:,} on"
     times = f", at most {wanted.times} time{'s' * (wanted.times != 1)}" if wanted.times else ""
     return f"{what}, with probability {wanted.probability:g} of each scan{begin}, seed {wanted.seed}{times}"
 

@@ -1,5 +1,6 @@
 /** What the tour does: the README's *Try it*, step by step. Each step waits for the event itself, whoever causes it. */
 
+import { isSample } from "../../logic/project/sample";
 import { breakpointsAt } from "../../store/debug/debug";
 import { useStack } from "../../store/debug/stack";
 import { useSweeps } from "../../store/errors/sweeps";
@@ -47,10 +48,7 @@ export const STEPS: readonly Step[] = [
     name: "sample",
     show: () => undefined,
     target: () => find(".picker"),
-    done: () => {
-      const paths = useDocuments.getState().files.map(({ path }) => path);
-      return paths.includes(FILE) && paths.includes("Belt.st");
-    },
+    done: () => isSample(useDocuments.getState().files),
     lasts: true,
   },
   {

@@ -124,7 +124,7 @@ export const communication = {
   "communication.plant.way": "Goes",
   "communication.port": "Port",
   "communication.port.about": "0: one that is free",
-  "communication.port.any": "Port 0: one that is free, when it is switched on",
+  "communication.port.any": "Port 0: a free one, chosen whenever the server is switched on",
   "communication.refused": "Refused",
   "communication.refused.last": "Refused last",
   "communication.request": "Request",

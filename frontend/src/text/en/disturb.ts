@@ -86,7 +86,6 @@ export const disturb = {
   "disturb.menu": "Disturb…",
   "disturb.missed": "Not injected",
   "disturb.missed.why": "not injected in {why}",
-  "disturb.near": "Did you mean",
   "disturb.taken": "{message}, entered before scan {scan}",
   "disturb.next": "next in scan {scan}",
   "disturb.noinstance": "No virtual PLC is selected. Select one at the top left to disturb it.",

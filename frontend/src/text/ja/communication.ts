@@ -124,7 +124,7 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.plant.way": "方向",
   "communication.port": "ポート",
   "communication.port.about": "0 は空いているポート",
-  "communication.port.any": "ポート0：オンにするとき、空いているポートになります",
+  "communication.port.any": "ポート0：サーバーをオンにするたびに、空いているポートを使います",
   "communication.refused": "拒否",
   "communication.refused.last": "最後に拒否された要求",
   "communication.request": "要求",

@@ -88,7 +88,6 @@ export const disturb: Record<keyof typeof english, string> = {
   "disturb.menu": "外乱を与える…",
   "disturb.missed": "注入されず",
   "disturb.missed.why": "発生せず: {why}",
-  "disturb.near": "もしかして:",
   "disturb.taken": "{message}、スキャン {scan} の前に入力",
   "disturb.next": "次はスキャン {scan}",
   "disturb.noinstance": "仮想 PLC が選ばれていません。左上で選ぶと外乱を与えられます。",

@@ -1,16 +1,21 @@
+import { isSample } from "../../../logic/project/sample";
 import { openTour } from "../../../store/page/tour";
+import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
 /** What to do while no error was raised yet. */
 export function FirstSteps() {
+  const sample = useDocuments(({ files }) => isSample(files));
   return (
     <section className="firststeps" aria-label={t("errors.start.title")}>
       <div className="row apart">
         <h3>{t("errors.start.title")}</h3>
-        <button type="button" className="link" onClick={openTour}>
-          {t("tour.open")}
-        </button>
+        {sample && (
+          <button type="button" className="link" onClick={openTour}>
+            {t("tour.open")}
+          </button>
+        )}
       </div>
       <ul>
         <li className="way">

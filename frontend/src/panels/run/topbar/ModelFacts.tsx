@@ -33,7 +33,12 @@ export function ModelFacts({ model }: { model: ModelSummary | undefined }) {
       <p className="hint">
         {[model.description, errors].filter(Boolean).join(" · ")} {trouble}
       </p>
-      {info?.name === model.name && info.areas.length > 0 && <Areas info={info} />}
+      {info?.name === model.name && info.areas.length > 0 && (
+        <>
+          <Areas info={info} />
+          <p className="hint">{t("model.access.legend")}</p>
+        </>
+      )}
     </div>
   );
 }
@@ -69,7 +74,7 @@ function AreaLine({ area }: { area: Area }) {
   const access = [area.program, area.tool, area.engine].map((may) => t(`model.access.${may}`)).join(" · ");
   return (
     <div className="gr" role="row">
-      <span role="cell" className="cut" title={area.description}>
+      <span role="cell" className="area">
         <b>{area.name}</b> <span className="muted">{area.description}</span>
       </span>
       <span role="cell" className="mono muted cut">

@@ -59,10 +59,9 @@ function Outcome() {
         <Icon name="error" small />
         <span>
           {outcome.message}
-          {outcome.near.length > 0 && ` ${t("disturb.near")} `}
           {outcome.near.map((name) => (
-            <button key={name} type="button" className="link mono" onClick={() => mendDisturbance(name)}>
-              {name}
+            <button key={name} type="button" className="link" onClick={() => mendDisturbance(name)}>
+              {t("import.trace.take", { path: name })}
             </button>
           ))}
         </span>

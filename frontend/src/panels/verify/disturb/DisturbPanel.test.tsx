@@ -45,7 +45,7 @@ test("a mistake says what is missing, what was typed stays, and a name that come
   await user.type(path(), "Main.belt.positon");
   await user.click(doIt());
   await waitFor(() => expect(refused()).toContain("positon is not known"));
-  await user.click(button("Main.belt.position"));
+  await user.click(button(t("import.trace.take", { path: "Main.belt.position" })));
   expect(path().value).toBe("Main.belt.position");
   await user.type(box(t("disturb.bit")), "x");
   await user.click(doIt());
