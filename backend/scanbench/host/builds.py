@@ -101,9 +101,7 @@ class Builds:
         forgotten = change.forgotten
         others = [each for each in change.lost if each.reason in (NEW, REMOVED)]
         lost = tuple((forgotten + others)[:LOST_LIMIT])
-        self._link.post(
-            protocol.Previewed(preview.ref, change.counted, lost, len(change.lost), len(forgotten), refusal)
-        )
+        self._link.post(protocol.Previewed(preview.ref, change.counted, lost, len(change.lost), refusal))
 
     def _observe(self, submit: protocol.Submit, loop: Loop) -> None:
         with self._building:

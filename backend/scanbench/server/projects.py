@@ -270,7 +270,7 @@ class Projects:
 
 def _question(changes: Sequence[Change]) -> str:
     """What has to be agreed to before anything is changed; empty when nothing has."""
-    lost = sum(change.previewed.forgets for change in changes)
+    lost = sum(change.previewed.counted.reinitialised for change in changes)
     refused = [change.name for change in changes if change.previewed.refusal]
     parts = [f"{lost} variable{'s' * (lost != 1)} would begin again"] if lost else []
     parts += [f"{', '.join(refused)} cannot be changed now"] if refused else []

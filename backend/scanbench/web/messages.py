@@ -11,10 +11,10 @@ from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.runtime.forces import ForcedValue
-from scanbench.runtime.migrate_image import Lost
 from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Dap, HaltInfo
 from scanbench.web.messages_errors import ErrorHistoryRow, SweepProgress
+from scanbench.web.messages_projects import OnlineChange
 from scanbench.web.messages_together import Draft
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
@@ -118,22 +118,6 @@ class ProgramText(Wire):
     version: int
     files: dict[str, str] = Field(description="path -> text")
     pous: tuple[PouInfo, ...]
-
-
-class OnlineChange(Wire):
-    """What a swap of the program does to the variables of one running PLC."""
-
-    instance: int
-    name: str
-    kept: int = Field(
-        description="variables that keep their value, as programs and globals declare them: an instance counts once"
-    )
-    reinitialized: int = Field(description="what has a value now and begins again, also within a variable")
-    new: int
-    removed: int
-    lost: tuple[Lost, ...] = Field(description="at most 500; `lost_count` says how many there are")
-    lost_count: int
-    refusal: str = Field(description="why this PLC cannot be changed now (mode RUN, say); empty when it can")
 
 
 class Build(Wire):

@@ -1,9 +1,10 @@
-"""What goes over the wire about new projects: what they begin with, and archives that they come from."""
+"""What goes over the wire about new projects: what they begin with, archives that they come from, and what a build does to PLCs."""
 
 from typing import Annotated
 
 from pydantic import Field
 
+from scanbench.runtime.migrate_image import Lost
 from scanbench.syntax.language_file import DialectName
 from scanbench.syntax.pragmas import PolicyName
 from scanbench.web.messages_base import Wire
@@ -74,3 +75,19 @@ class UnsavedText(Wire):
 
     path: str
     text: str
+
+
+class OnlineChange(Wire):
+    """What a swap of the program does to the variables of one running PLC."""
+
+    instance: int
+    name: str
+    kept: int = Field(
+        description="variables that keep their value, as programs and globals declare them: an instance counts once"
+    )
+    reinitialized: int = Field(description="what has a value now and begins again, also within a variable")
+    new: int
+    removed: int
+    lost: tuple[Lost, ...] = Field(description="at most 500; `lost_count` says how many there are")
+    lost_count: int
+    refusal: str = Field(description="why this PLC cannot be changed now (mode RUN, say); empty when it can")

@@ -46,7 +46,7 @@ WIRE: tuple[tuple[type[Wire], str], ...] = (
     (messages.Problem, "message"),
     (messages.SaveConflict, "message"),
     (messages.EmbeddedCheck, "needless"),
-    (messages.OnlineChange, "refusal"),
+    (messages_projects.OnlineChange, "refusal"),
     (messages.BuildResult, "message"),
     (messages.TrapInfo, "message"),
     (messages.InstanceState, "message"),

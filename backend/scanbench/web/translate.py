@@ -23,6 +23,7 @@ from scanbench.web import (
     translate_sweeps,
     translate_verify,
 )
+from scanbench.web.messages_projects import OnlineChange
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, User
@@ -92,9 +93,9 @@ def build_result(outcome: BuildOutcome) -> wire.BuildResult:
     )  # fmt: skip
 
 
-def _change(change: Change) -> wire.OnlineChange:
+def _change(change: Change) -> OnlineChange:
     found, counted = change.previewed, change.previewed.counted
-    return wire.OnlineChange(
+    return OnlineChange(
         instance=change.instance, name=change.name, kept=counted.kept, reinitialized=counted.reinitialised, new=counted.new, removed=counted.removed,
         lost=found.lost, lost_count=found.lost_count, refusal=found.refusal,
     )  # fmt: skip

@@ -355,16 +355,12 @@ class RunMarks:
 
 @dataclass(frozen=True, slots=True)
 class Previewed:
-    """Answer to `Preview`. `lost` is bounded, `lost_count` is not; a `refusal` says why nothing can be swapped now.
-
-    `forgets` counts those that have a value now and begin again: variables that are new or removed lose nothing.
-    """
+    """Answer to `Preview`. `lost` is bounded, `lost_count` is not; a `refusal` says why nothing can be swapped now."""
 
     ref: int
     counted: Counted
     lost: tuple[Lost, ...]
     lost_count: int
-    forgets: int
     refusal: str
 
 
