@@ -265,7 +265,7 @@ RULES: dict[Allowance, Rule] = {
         "`VAR unit : Unit; END_VAR` in the block",
     ),
     Allowance.VENDOR_OPERATORS: Rule(
-        "`__POUNAME()`, `__VARINFO`, `__QUERYINTERFACE`, `__QUERYPOINTER`, `XSIZEOF`, `SIZEOF(POINTER TO INT)`, `ANY_TO_INT`",
+        "`__POUNAME()`, `__POSITION()`, `__VARINFO`, `__QUERYINTERFACE`, `__QUERYPOINTER`, `XSIZEOF`, `SIZEOF(POINTER TO INT)`, `ANY_TO_INT`",
         "there are no such operators",
         "`?=`, `SIZEOF(x)`, `TO_INT(x)`",
     ),

@@ -11,6 +11,8 @@ from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
+LOOKED_AT = 65_536
+"""Bytes of a file that say what it is."""
 DEFAULT_MODEL = "GENERIC-IEC"
 PROJECT_FILE = "project.json"
 
@@ -34,11 +36,12 @@ def program_files(path: Path) -> list[Path]:
 
 
 def _is_text(path: Path) -> bool:
-    """Whether it is a file, and none of a database, which may have the ending of Siemens' data blocks."""
+    """Whether it is a file, and none of a database or of EPICS, which may have the ending of Siemens' data blocks."""
     if not path.is_file() or path.suffix.lower() != ".db":
         return path.is_file()
     with path.open("rb") as file:
-        return b"\0" not in file.read(512)
+        begin = file.read(LOOKED_AT)
+    return b"\0" not in begin[:512] and (b"DATA_BLOCK" in begin.upper() or b"record(" not in begin)
 
 
 def twincat_projects(folder: Path) -> dict[str, TwinCatProject]:

@@ -89,6 +89,10 @@ PIECE = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 """All there is, the most frequent first, so that the pieces leave no gap."""
+LONG_PIECE = re.compile(PIECE.pattern.replace(r"[^$'\n]", "[^$']").replace(r'[^$"\n]', '[^$"]'), PIECE.flags)
+"""The same with strings that go on in the next line."""
+QUOTES = frozenset("'\"")
+"""As a piece: the beginning of a string that never ends."""
 OPERATORS = frozenset(":= => <= >= <> ** .. ?= - + = < > & ( ) [ ] , ; : . ^ # * / | ~".split())
 DRAWN = {"|": "write OR", "~": "write NOT"}
 """Marks of ladder diagrams, and what people mean who write them elsewhere."""
@@ -112,11 +116,16 @@ AHEAD = 4
 """How many END tokens close the text: as far as the parser looks without counting."""
 
 
-def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[Tokens, list[Problem]]:
-    """All tokens of a text, or of a part of it, and what could not be read."""
+def tokenize(
+    source: Source, start: int = 0, end: int | None = None, long_texts: bool = False
+) -> tuple[Tokens, list[Problem]]:
+    """All tokens of a text, or of a part of it, and what could not be read. `long_texts`: a string may go on in the next line, where
+    without that one would never end."""
     problems: list[Problem] = []
     text, end = source.text, len(source.text) if end is None else end
     pieces = PIECE.findall(text, start, end)
+    if long_texts and not QUOTES.isdisjoint(pieces) and QUOTES.isdisjoint(long := LONG_PIECE.findall(text, start, end)):
+        pieces = long
     known = {piece: _kind(piece) for piece in set(pieces)}
     found = set(known.values())
     if Lex.OPEN in found:

@@ -25,7 +25,6 @@ LITERALS = frozenset((Lex.INTEGER, Lex.REAL, Lex.TIME, Lex.STRING, Lex.TYPED))
 REFUSED = {
     "__CATCH": "check before you compute; a trap stops the PLC",
     "__CURRENTTASK": "there is no information about tasks at run time",
-    "__POSITION": "there is no information about positions at run time",
 }
 FOREIGN = {
     "==": "write `=`",

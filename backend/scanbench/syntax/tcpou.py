@@ -172,7 +172,7 @@ class _Writer:
 
     def _operand(self, operand: Operand, at: int) -> int:
         """Its tokens, at their own places where they follow `at`: where they end."""
-        tokens, problems = tokenize(self.source, operand.begin, operand.end)
+        tokens, problems = tokenize(self.source, operand.begin, operand.end, long_texts=True)
         self.problems += problems
         moved = 0 if operand.begin >= at else at - operand.begin
         last = at
@@ -187,7 +187,7 @@ class _Writer:
     def _text(self, element: Element | None) -> None:
         if element is None:
             return
-        tokens, problems = tokenize(self.source, element.begin, element.end)
+        tokens, problems = tokenize(self.source, element.begin, element.end, long_texts=True)
         self.problems += problems
         self._made.kinds += tokens.kinds[:-AHEAD]
         self._made.texts += tokens.texts[:-AHEAD]

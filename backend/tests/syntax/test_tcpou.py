@@ -163,3 +163,17 @@ def test_a_file_pasted_under_a_different_name_is_read_all_the_same() -> None:
     )
     assert [each.message for each in pasted.problems] == [each.message for each in named.problems]
     assert pasted.program is not None
+
+
+def test_a_text_goes_on_in_the_next_line() -> None:
+    declaration = "PROGRAM P\nVAR s : STRING := 'one\n  two'; t : STRING; END_VAR"
+    body = "t := 'it'; // don't\ns := 'a';"
+    text = f'<TcPlcObject><POU Name="P"><Declaration><![CDATA[{declaration}]]></Declaration>'
+    text += f"<Implementation><ST><![CDATA[{body}]]></ST></Implementation></POU></TcPlcObject>"
+    file = well(text, "P.TcPOU")
+    first = file.pous[0].sections[0].variables[0].initial
+    assert "b'one\\n  two'" in repr(first)
+    assert len(file.pous[0].body) == 2
+    open_ = text.replace("'a';", "'a;")
+    assert [each for each in complaints(open_, "P.TcPOU") if "never ends" in each]
+    assert complaints(declaration + "\nEND_PROGRAM")  # in plain text a string ends in its line

@@ -38,6 +38,12 @@ def is_any(type: Type) -> bool:
 def any_of(body: Body, node: tree.Expression, type: Record, what: str) -> Expr:
     """What the input `what` is given for this variable; one that is such an input itself is passed on."""
     name = "ANY" if type.name.upper() == ANY else type.name.upper()
+    if isinstance(node, tree.Call):  # what gives such an input itself
+        mark = body.report.mark()
+        result = body.call(node).type
+        body.report.undo(mark)
+        if result == type:
+            return as_type(body, node, type, what)
     if not isinstance(node, VARIABLES):
         raise body.report.reject("T005", f"{what} is {name} and needs a variable.", node.span)
     mark = body.report.mark()

@@ -9,14 +9,15 @@ from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Base, RefOf
 from scanbench.program.shown import shown
-from scanbench.program.types import Member, OpenArray, Section
+from scanbench.program.types import ArrayType, Member, OpenArray, Record, Section
 from scanbench.syntax import tree
 
 
 def _read(body: Body, member: Member, node: tree.Expression) -> bool:
-    """Whether a pointer may lead to a VAR_IN_OUT CONSTANT, which is a variable of whoever calls."""
+    """Whether a pointer may lead to what is CONSTANT: a VAR_IN_OUT, which is a variable of whoever calls, or a whole structure or array."""
     used = f"`{member.name}` is CONSTANT, and could be written through this pointer"
-    return member.section is Section.IN_OUT and allowed(body, Allowance.LOCAL_ADDRESSES, node.span, used)
+    placed = member.section is Section.IN_OUT or isinstance(member.type, Record | ArrayType)
+    return placed and allowed(body, Allowance.LOCAL_ADDRESSES, node.span, used)
 
 
 def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: bool = False) -> RefOf:

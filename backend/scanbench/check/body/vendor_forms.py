@@ -16,6 +16,7 @@ WHY = {
     "__QUERYPOINTER": "use `?=`",
     "__VARINFO": "there is no information about variables at run time",
     "__POUNAME": "there is no information about POUs at run time",
+    "__POSITION": "there is no information about positions at run time",
 }
 """Why the strict language has none of these."""
 UNSUPPORTED = {
@@ -43,7 +44,21 @@ def vendor_form(body: Body, node: tree.Call, name: str) -> Expr | None:
         raise body.report.reject("X001", f"`{name}` is not supported: {WHY[name]}.", node.callee.span)
     if name == "__VARINFO":
         return var_info(body, node)
+    if name == "__POSITION":
+        return _position(body, node)
     return _pou_name(body, node) if name == "__POUNAME" else _query(body, node, name)
+
+
+def _position(body: Body, node: tree.Call) -> Expr:
+    """`Line 3, Column 9 (Impl)`, `Line 3 (Decl)`."""
+    if node.arguments:
+        raise body.report.reject("T004", "`__POSITION` takes no arguments.", node.span)
+    where = f"Line {node.span.line} (Decl)"
+    if body.pou is not None:
+        where = f"Line {node.span.line}, Column {node.span.column} (Impl)"
+    told = "`__POSITION()` is the place in this file, where the vendor's tool counts in the declaration or the implementation"
+    used(body, Allowance.VENDOR_OPERATORS, node.span, told, f"`'{where}'`")
+    return body.expression(tree.Literal("string", where.encode("latin-1"), None, node.span))
 
 
 def _pou_name(body: Body, node: tree.Call) -> Expr:

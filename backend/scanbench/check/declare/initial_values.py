@@ -73,10 +73,20 @@ def _image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
     if isinstance(type, Reference) and refers(declared, type, value):
         declared.given.append(StartReference(0, type, value))
         return initial_of(type)
+    if _is_copied(declared, value, type):
+        declared.given.append(StartExpression(0, type, value))
+        return initial_of(type)
     if not isinstance(type, Elementary | StringType):
         example = "[1, 2, 3(0)]" if isinstance(type, ArrayType) else "(member := value)"
         raise declared.report.reject("D004", f"An initial value of {type} is written like {example}.", value.span)
     return _bytes(declared, value, type)
+
+
+def _is_copied(declared: Declarations, value: tree.Initial, type: Type) -> bool:
+    """Whether a structure or array starts as another one is, which is named."""
+    whole = isinstance(type, ArrayType) or (isinstance(type, Record) and type.kind is Kind.STRUCT)
+    allowed = Allowance.START_EXPRESSIONS in declared.dialect.allows or declared.in_body
+    return whole and allowed and isinstance(value, tree.Name | tree.MemberOf | tree.IndexOf | tree.Call)
 
 
 def _bytes(declared: Declarations, value: tree.Expression, type: Elementary | StringType) -> bytes:
