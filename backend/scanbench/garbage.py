@@ -14,6 +14,9 @@ def without_collection() -> Iterator[None]:
         yield
     finally:
         if was:
+            if not gc.get_freeze_count():  # what was made is old at once, else the next search looks through all of it
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()
 
 

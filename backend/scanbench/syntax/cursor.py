@@ -64,6 +64,8 @@ class Cursor:
         """Whether the text may have assignments like `x += 1`."""
         self.variadic = False
         """Whether a declaration with `...` was read."""
+        self.asked: list[tree.NamedType] = []
+        """Generic blocks that the statements of this POU make by `__NEW`."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

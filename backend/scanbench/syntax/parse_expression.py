@@ -202,9 +202,39 @@ def _call(c: Cursor, callee: tree.Expression) -> tree.Call:
     _refuse(c, callee)
     if isinstance(callee, tree.Name) and callee.name.upper() in SIZES and (of_pointer := _pointer_type(c)) is not None:
         return tree.Call(callee, (of_pointer,), _through(c, callee))
-    if isinstance(callee, tree.Name) and callee.name.upper() == "__NEW" and (made := _new_pointers(c)) is not None:
-        return tree.Call(callee, made, _through(c, callee))
+    if isinstance(callee, tree.Name) and callee.name.upper() == "__NEW":
+        made = _new_pointers(c) or _new_generic(c)
+        if made is not None:
+            return tree.Call(callee, made, _through(c, callee))
     return tree.Call(callee, arguments(c, "call"), _through(c, callee))
+
+
+def _new_generic(c: Cursor) -> tuple[tree.Argument, ...] | None:
+    """`(FB<5>)` and `(FB<5>(limit := 3))` of vendors, where memory for a block with generic constants is asked for."""
+    if not c.word(1) or c.texts[c.at + 2] != "<":
+        return None
+    c.take()
+    start = c.take()
+    c.take()
+    values = [operand(c)]
+    while c.accept(","):
+        values.append(operand(c))
+    c.expect(">", "to close the values of the generic constants")
+    span = c.span_from(start)
+    c.asked.append(tree.NamedType(c.texts[start], span, tuple(values)))
+    numbers = [each.value for each in values if isinstance(each, tree.Literal) and isinstance(each.value, int)]
+    if len(numbers) != len(values):
+        c.report(
+            "X001",
+            "`__NEW` takes numbers as values of generic constants here; write a number, or declare a variable.",
+            span,
+        )
+    made: tree.Expression = tree.Name(f"{c.texts[start]}<{', '.join(map(str, numbers))}>", span)
+    if c.is_("("):
+        made = tree.Call(made, arguments(c, "call"), c.span_from(start))
+    what = "call"
+    c.expect(")", f"to close the {what}")
+    return (tree.Argument(None, False, made, span),)
 
 
 def _new_pointers(c: Cursor) -> tuple[tree.Argument, ...] | None:

@@ -75,8 +75,14 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     modifiers += (TYPE_PARAMETERS,) * bool(parameters) + (VARIADIC,) * c.variadic
     return tree.PouDeclaration(
         kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
-        extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy,
+        extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy, asked=_asked(c),
     )  # fmt: skip
+
+
+def _asked(c: Cursor) -> tuple[tree.NamedType, ...]:
+    """The generic blocks that were asked for since the last POU."""
+    made, c.asked = tuple(c.asked), []
+    return made
 
 
 def _in_out(c: Cursor, first: int) -> str:
@@ -340,7 +346,15 @@ def _declared(
     modifiers: tuple[str, ...],
 ) -> tree.PouDeclaration:
     return tree.PouDeclaration(
-        kind, c.texts[name], result, sections, body, c.span_of(name), modifiers=modifiers, access=access
+        kind,
+        c.texts[name],
+        result,
+        sections,
+        body,
+        c.span_of(name),
+        modifiers=modifiers,
+        access=access,
+        asked=_asked(c),
     )
 
 

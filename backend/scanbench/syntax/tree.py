@@ -338,8 +338,7 @@ class PouDeclaration:
     modifiers: tuple[str, ...] = ()
     """ABSTRACT, FINAL, OVERRIDE; of a method ACTION, and the attribute `call_after_init` in upper case; of a program STARTUP."""
     access: str = "PUBLIC"
-    namespace: str = ""
-    """`A.B`, empty at the top."""
+    namespace: str = ""  # `A.B`, empty at the top
     using: tuple[str, ...] = ()
     """Namespaces whose names are visible without qualification, the enclosing ones not included."""
     in_out: str = ""
@@ -348,6 +347,7 @@ class PouDeclaration:
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
     overload: str = ""  # of the second FUNCTION of one name `(2)`, and so on; of methods of one name `(INT)`
     policy: str = ""  # of values outside of subranges in its statements, whose variables say none
+    asked: tuple[NamedType, ...] = ()  # generic blocks that its statements make by `__NEW(FB<5>)`
     overlays: tuple[tuple[str, str, Span], ...] = ()  # of SCL: variables AT another one, both in upper case, and where
 
 

@@ -173,7 +173,9 @@ def test_a_text_goes_on_in_the_next_line() -> None:
     file = well(text, "P.TcPOU")
     first = file.pous[0].sections[0].variables[0].initial
     assert "b'one\\n  two'" in repr(first)
-    assert len(file.pous[0].body) == 2
+    body_ = file.pous[0].body
+    assert isinstance(body_, tuple)
+    assert len(body_) == 2
     open_ = text.replace("'a';", "'a;")
     assert [each for each in complaints(open_, "P.TcPOU") if "never ends" in each]
     assert complaints(declaration + "\nEND_PROGRAM")  # in plain text a string ends in its line

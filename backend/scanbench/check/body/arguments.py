@@ -237,7 +237,8 @@ def output_value(body: Body, value: Expr, target: Type, argument: tree.Argument)
 
 def _input(body: Body, member: Member, value: tree.Expression | None, span: Span) -> Expr:
     if value is not None:
-        return as_argument(body, value, member.type, f"`{member.name}`")
+        name = member.name.removesuffix("$")  # of the code that initialises an instance: what goes to FB_init
+        return as_argument(body, value, member.type, f"`{name}`")
     data = member.initial or initial_of(member.type)
     default = decode(member.type, data)
     if default is not None:

@@ -53,9 +53,9 @@ def _position(body: Body, node: tree.Call) -> Expr:
     """`Line 3, Column 9 (Impl)`, `Line 3 (Decl)`."""
     if node.arguments:
         raise body.report.reject("T004", "`__POSITION` takes no arguments.", node.span)
-    where = f"Line {node.span.line} (Decl)"
-    if body.pou is not None:
-        where = f"Line {node.span.line}, Column {node.span.column} (Impl)"
+    line, column = node.span.line, node.span.column
+    words = ("Line", str(line), "(Decl)") if body.pou is None else ("Line", f"{line},", "Column", str(column), "(Impl)")
+    where = " ".join(words)
     told = "`__POSITION()` is the place in this file, where the vendor's tool counts in the declaration or the implementation"
     used(body, Allowance.VENDOR_OPERATORS, node.span, told, f"`'{where}'`")
     return body.expression(tree.Literal("string", where.encode("latin-1"), None, node.span))

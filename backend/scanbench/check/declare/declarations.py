@@ -22,12 +22,10 @@ from scanbench.program.types import (
     ABBREVIATIONS,
     ELEMENTARY,
     NULL,
-    Elementary,
     Kind,
     Member,
     Record,
     Reference,
-    StringType,
     Type,
 )
 from scanbench.syntax import tree
@@ -74,7 +72,7 @@ class StartExpression:
 
     offset: int
     """In bytes, from the beginning of the variable."""
-    type: Elementary | StringType | Reference
+    type: Type
     node: tree.Expression
 
 

@@ -123,6 +123,7 @@ class _Blocks:
         made = replace(
             pou, name=name, extends=extends, sections=tuple(self.section(each, everything) for each in sections),
             methods=tuple(self._method(each, everything) for each in pou.methods), result=self._maybe(pou.result, everything),
+            asked=tuple(self.named(each, everything) for each in pou.asked),
         )  # fmt: skip
         self.space = outer
         return made
@@ -143,7 +144,8 @@ class _Blocks:
     def _method(self, method: tree.PouDeclaration, constants: Constants) -> tree.PouDeclaration:
         constants = _without(constants, method.sections) | _own(method.sections)
         sections = tuple(self.section(each, constants) for each in method.sections)
-        return replace(method, sections=sections, result=self._maybe(method.result, constants))
+        asked = tuple(self.named(each, constants) for each in method.asked)
+        return replace(method, sections=sections, result=self._maybe(method.result, constants), asked=asked)
 
     def _maybe(self, spec: tree.TypeSpec | None, constants: Constants) -> tree.TypeSpec | None:
         return None if spec is None else self.spec(spec, constants)

@@ -101,8 +101,8 @@ class Life:
         sections = [tree.VariableSection("VAR_INPUT", (), flags, NOWHERE)]
         for section, variable in inputs:
             sections.append(replace(section, variables=(replace(variable, name=hidden(variable.name)),)))
-        declaration = tree.PouDeclaration("method", f"{name}$", None, tuple(sections), (), NOWHERE)
-        full = f"{owner.name}.{name}$"
+        declaration = tree.PouDeclaration("method", f"{name}$$", None, tuple(sections), (), NOWHERE)
+        full = f"{owner.name}.{name}$$"
         try:
             with self.declarations.names.within(self._space(owner)), self.report.apart():
                 part = frame(self.declarations, declaration, Record(full, Kind.BLOCK), this=owner.record)
