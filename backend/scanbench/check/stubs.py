@@ -48,8 +48,8 @@ def _tell_placeholders(report: Report, files: Iterable[tree.File]) -> None:
         for name in (*(each.name for each in file.types), *(each.name for each in file.pous)):
             kinds["pou", name.upper()] = kinds["type", name.upper()] = name, _INFERRED
         for section in file.globals:
-            said = _ASSUMED if "CONSTANT" in section.qualifiers else _INFERRED
             for each in section.variables:
+                said = _INFERRED if each.initial is None else _assumed(each.initial)
                 kinds["variable", each.name.upper()] = each.name, said
     if not kinds:
         return
@@ -67,7 +67,11 @@ def _tell_placeholders(report: Report, files: Iterable[tree.File]) -> None:
 
 
 _INFERRED = "what it has is inferred from its use, and it does nothing. Correct it in libraries/Placeholders.st, or put the library there."
-_ASSUMED = "its number is not known, and 10 is assumed. Write the right one in libraries/Placeholders.st."
+
+
+def _assumed(number: tree.Initial) -> str:
+    value = number.value if isinstance(number, tree.Literal) else "one"
+    return f"its number is not known, and {value!s} is assumed. Write the right one in libraries/Placeholders.st."
 
 
 def _order(span: Span) -> tuple[str, int, int]:

@@ -89,3 +89,25 @@ def test_nothing_is_written_where_every_name_is_declared() -> None:
     assert (
         placeholders({"m.st": "PROGRAM MAIN\nVAR n : INT; END_VAR\nn := ABS(n);\nEND_PROGRAM\n"}, ["Parts"], []) is None
     )
+
+
+def test_a_block_that_an_interface_is_given_has_what_the_interface_has() -> None:
+    machine = """FUNCTION_BLOCK FB_User
+VAR i : I_Drive; END_VAR
+METHOD FB_init : BOOL
+VAR_INPUT bInitRetains : BOOL; bInCopyCode : BOOL; iDrive : I_Drive; END_VAR
+i := iDrive;
+END_METHOD
+i.Move(fTo := 2.5);
+i.fSpeed := 3.0;
+END_FUNCTION_BLOCK
+PROGRAM MAIN
+VAR drive : FB_Drive; user : FB_User(iDrive := drive); units : ARRAY[1..GVL_Parts.N, 1..GVL_Parts.N] OF FB_Unit[(a := 1), (a := 2), (a := 3), (a := 4)]; b : BOOL; END_VAR
+user();
+b := drive.bReady;
+END_PROGRAM
+"""
+    text, _, problems = checked(machine)
+    assert [each for each in problems if each.severity is Severity.ERROR] == []
+    assert "FUNCTION_BLOCK FB_Drive IMPLEMENTS I_Drive" in text
+    assert "N : DINT := 2;" in text

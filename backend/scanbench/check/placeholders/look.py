@@ -100,6 +100,8 @@ def _declarations(world: World, declared: Iterable[tree.Variable], body: Body, c
             world.fixed |= {name.upper() for name in _names(each.initial)}
         if each.initial is not None:
             _initial(world, of_type(each.type), each.initial, body)
+        if each.elements and isinstance(each.type, tree.ArraySpec):
+            _count(world, each.type, len(each.elements))
         for arguments in (each.arguments, *each.elements):
             spec = each.type.element if isinstance(each.type, tree.ArraySpec) else each.type
             found = world.resolved(spec)
@@ -108,6 +110,15 @@ def _declarations(world: World, declared: Iterable[tree.Variable], body: Body, c
             if isinstance(found, Unknown) and arguments:
                 found.block = True
                 body.arguments(arguments, found.arguments, found.arguments)
+
+
+def _count(world: World, spec: tree.ArraySpec, elements: int) -> None:
+    """Of `ARRAY[1..SIZE, 1..SIZE]` with so many elements, the number SIZE."""
+    highs = {name.upper() for _, high in spec.ranges for name in list(_names(high))[:1]}
+    ones = all(isinstance(low, tree.Literal) and low.value == 1 for low, _ in spec.ranges)
+    number = round(elements ** (1 / len(spec.ranges)))
+    if ones and len(highs) == 1 and number ** len(spec.ranges) == elements:
+        world.counted.setdefault(highs.pop(), number)
 
 
 def _initial(world: World, shape: Shape, initial: tree.Initial, body: Body | None = None) -> None:

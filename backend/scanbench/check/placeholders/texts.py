@@ -43,7 +43,8 @@ class Writer:
 
     def _constant(self, each: Member) -> str:
         """What has to be a number before anything runs: one that the user sees and corrects."""
-        return f"{self.type(each.shape, each.name) if each.shape.known is not None else 'DINT'} := {ASSUMED}"
+        number = self.world.counted.get(each.name.upper(), ASSUMED)
+        return f"{self.type(each.shape, each.name) if each.shape.known is not None else 'DINT'} := {number}"
 
     # ---- types ------------------------------------------------------------------------------------------
 
@@ -107,18 +108,22 @@ class Writer:
             for member in unknown.members.values():
                 yield from self._property(unknown, member, body=False)
             yield "END_INTERFACE"
-        elif unknown.block or unknown.methods or unknown.arguments:
+        elif unknown.block or unknown.methods or unknown.arguments or self._is_block(unknown):
             yield from self._block(unknown)
         elif unknown.values:
             yield f"TYPE\n  {{attribute 'qualified_only'}}\n  {unknown.name} : ({', '.join(unknown.values.values())});\nEND_TYPE"
         elif not unknown.members and (unknown.shape.known is not None or unknown.shape.literal is not None):
             yield f"TYPE {unknown.name} : {self.type(unknown.shape, unknown.name)}; END_TYPE"
-        elif not unknown.members and unknown.name.upper().startswith(("FB_", "FB")):
-            yield from self._block(unknown)
         else:
             yield f"TYPE {unknown.name} : STRUCT"
             yield from (f"  {line}" for line in self._members(unknown, unknown.members.values()))
             yield "END_STRUCT; END_TYPE" if unknown.members else "  Stub_Nothing : BYTE;\nEND_STRUCT; END_TYPE"
+
+    def _is_block(self, unknown: Unknown) -> bool:
+        """By its name, or as an interface is given one."""
+        interfaces = (self.world.unknown.get(name) for name in unknown.gives)
+        named = unknown.name.upper().startswith("FB_") and not unknown.values
+        return named or any(each is not None and each.interface for each in interfaces)
 
     def _members(self, owner: Unknown, members: Iterable[Member]) -> Iterator[str]:
         for each in members:

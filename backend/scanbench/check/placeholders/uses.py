@@ -179,7 +179,7 @@ class Body:
         world, owner = self.world, each.owner
         if isinstance(owner, tree.Name) and owner.name.upper() not in self.local:
             key = owner.name.upper()
-            listed = world.globals.get(f"{key}.{each.name.upper()}")
+            listed = self._listed(each)
             if listed is not None:
                 return of_type(listed)
             if key in world.prefixes or (key in world.lists and key not in world.globals):
@@ -199,6 +199,13 @@ class Body:
                 found.values.setdefault(each.name.upper(), each.name)
                 return of_type(named(owner.name, each))
         return world.part(self.of(owner), each.name)
+
+    def _listed(self, each: tree.MemberOf) -> tree.TypeSpec | None:
+        """The type of a variable with the name of its list before it."""
+        owner = each.owner
+        if not isinstance(owner, tree.Name) or owner.name.upper() in self.local:
+            return None
+        return self.world.globals.get(f"{owner.name}.{each.name}".upper())
 
     def index(self, array: Shape, indices: list[Shape]) -> Shape:
         for one in indices:
@@ -220,6 +227,9 @@ class Body:
     def _call(self, each: tree.Call, used: bool) -> Shape:
         callee, world = each.callee, self.world
         if isinstance(callee, tree.MemberOf):
+            listed = self._listed(callee)
+            if listed is not None:
+                return self._instance(each, of_type(listed))
             inside = isinstance(callee.owner, tree.Name) and callee.owner.name.upper() in world.prefixes
             if not (inside and callee.owner.name.upper() not in self.local):  # type: ignore[union-attr]
                 return self._method(each, callee, used)

@@ -40,6 +40,8 @@ class World:
         self.unknown_globals: dict[str, Member] = {}
         self.unknown_lists: dict[str, str] = {}
         """Names that are written before global variables."""
+        self.counted: dict[str, int] = {}
+        """The numbers of such names that the arguments of an array of instances tell."""
         self.fixed: set[str] = set()
         """Names that would have to be a number before anything runs, as a bound of an array: use says nothing of it."""
         for file in (*files, *library()):
