@@ -81,13 +81,16 @@ class About:
     dropped_before: int = 0
     roots: int = 0
     """So many entries of the scans that were dropped are left, before the first state: later ones depend on them."""
+    marks: bool = False
+    """Whether its writer leaves the mark of the last scan at its end; earlier versions did not always."""
 
     @staticmethod
     def of(program: Program, by: str) -> "About":
         """A run that begins now."""
         model = program.layout.model
+        created = iso(wall_time())
         return About(
-            model.name, model_fingerprint(model), libm_fingerprint(), program.interval_ns, iso(wall_time()), by
+            model.name, model_fingerprint(model), libm_fingerprint(), program.interval_ns, created, by, marks=True
         )
 
     def packed(self) -> bytes:

@@ -129,9 +129,9 @@ class Recording:
         self.lost = ends_early or bool(found.gaps)
         """Whether scans or commands are lost that it held."""
         self.damaged = self.lost or file.mended is not None or file.damage is not None
+        """Whether there is any damage. A file that ends in the middle of a block may have been cut off: nobody knows what came after."""
         self.marked = file.marked is not None
         """Whether what was read ends with the mark of its last scan: not where it was cut off, nor where its writer was ended."""
-        """Whether there is any damage. A file that ends in the middle of a block may have been cut off: nobody knows what came after."""
         self._repeat: list[tuple[Kind, bytes]] = []
         """Written once more after the next state, so that no damaged block costs the whole run."""
         self._programs, self._read = found.programs, found.entries
@@ -357,7 +357,7 @@ class Recording:
         """
         self._writer.pay()
         refuse_existing(path)
-        seen = replace(self._seen(), about=replace(self.about, created=iso(wall_time()), by=by))
+        seen = replace(self._seen(), about=replace(self.about, created=iso(wall_time()), by=by, marks=True))
 
         def write() -> None:
             failed: Exception | None = None

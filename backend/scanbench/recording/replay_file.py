@@ -75,7 +75,9 @@ def replay_file(
         about, damage, damaged = recording.about, recording.damage, recording.damaged
         if until is None and not damaged and not recording.marked:
             cut = f"{path.name} ends without the mark of its last scan: its writer was ended, or the file was cut off"
-            damage, damaged = f"{cut}. Whether more than scan {end} was recorded is not known", True
+            if not about.marks:
+                cut = f"{path.name} is from a version that left no mark at the end of a run"
+            damage, damaged = f"{cut}. Whether more than scan {end} was recorded is not known", about.marks
         return Replayed(
             first, resource.header.scan, digest, len(resource.journal), agreed, damage, recording.lost,
             recording.info.lost, damaged, about.by, about.created,

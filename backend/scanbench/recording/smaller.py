@@ -96,6 +96,7 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
             kept = _roots(seen, cut, codec)
         about = replace(
             seen.about,
+            marks=True,
             thinned_before=max(seen.about.thinned_before, plan.thinned_before),
             dropped_before=cut.scan if cut is not None else seen.about.dropped_before,
             roots=len(kept) if cut is not None else seen.about.roots,

@@ -25,7 +25,13 @@ def write_stump(
     version, state = resource.version, resource.state
     roots = journal_roots(entries, codec.folds)
     about = replace(
-        reader.recording.about, created=iso(wall_time()), by=by, thinned_before=0, dropped_before=scan, roots=len(roots)
+        reader.recording.about,
+        created=iso(wall_time()),
+        by=by,
+        thinned_before=0,
+        dropped_before=scan,
+        roots=len(roots),
+        marks=True,
     )
     file = RunFile.create(to)
     try:
