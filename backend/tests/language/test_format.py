@@ -12,7 +12,7 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.language.format import edits, formatted
 from scanbench.plcmodel.model import Model
 from scanbench.program.layout import Layout
-from tests.amounts import amount, slow, some
+from tests.amounts import amount, nightly, slow, some
 from tests.caseformat import MODELS, read_cases
 from tests.check.test_no_crash import WORDS
 from tests.language.reading import FILE
@@ -42,6 +42,7 @@ def keeps(text: str, model: Model, scans: int, name: str = FILE, **others: str) 
     return made
 
 
+@nightly
 @pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 4, 1))
 def test_a_formatted_case_does_the_same(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
@@ -60,6 +61,7 @@ def test_a_large_program_does_the_same(name: str) -> None:
     assert keeps(large(name), GENERIC, 200) is not None
 
 
+@nightly
 def test_random_programs_do_the_same() -> None:
     for seed in range(amount(200, 8)):
         keeps(generate(seed), GENERIC, 2)

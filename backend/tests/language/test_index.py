@@ -18,7 +18,7 @@ from scanbench.syntax.conditions import chosen
 from scanbench.syntax.lexer import Lex, tokenize
 from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.source import Source
-from tests.amounts import some
+from tests.amounts import nightly, some
 from tests.caseformat import MODELS, read_cases
 from tests.language.reading import FILE, at, read
 
@@ -34,6 +34,7 @@ WORDS = frozenset(
 """Words of the language that the lexer takes as names, as programs may use them as names."""
 
 
+@nightly
 @pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 4, 0))
 def test_every_name_of_a_case_means_something(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):

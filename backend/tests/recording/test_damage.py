@@ -16,7 +16,7 @@ from scanbench.recording.stump import write_stump
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount
+from tests.amounts import amount, nightly
 from tests.recording.damage import SCANS, Accident, Left, Whole, accident, left_of, whole
 from tests.recording.recorded import advance, of_file, resumed, spare, tidy
 
@@ -26,6 +26,7 @@ def replayed(path: Path) -> Replayed:
     return replay_file(path, lambda kept: programs, ENTRIES)
 
 
+@nightly
 def test_a_damaged_block_costs_its_own_scans_only(tmp_path: Path) -> None:
     path, outcomes = tmp_path / "run", Counter[str]()
     path.write_bytes(whole().data)

@@ -16,7 +16,7 @@ from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount
+from tests.amounts import amount, nightly
 from tests.recording.damage import accident, left_of, whole
 from tests.recording.recorded import advance, begun, of_file, resumed, spare, tidy
 
@@ -122,6 +122,7 @@ class Shown:
         return Shown(timeline.live_scan, timeline.resource.state, tuple(timeline.live_journal), lost)
 
 
+@nightly
 def test_a_damaged_run_is_copied_made_smaller_and_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also, what an accident cannot have cost is there and as it was."""
     monkeypatch.setattr("scanbench.recording.smaller.ENTRY_LIMIT", 60)

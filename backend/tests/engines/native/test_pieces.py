@@ -11,7 +11,7 @@ from scanbench.engines.native import inlining
 from scanbench.engines.native.compiler import QUICK
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.engine import NativeEngine
-from tests.amounts import amount, some
+from tests.amounts import amount, nightly, some
 from tests.caseformat import Case, read_cases, run_case
 from tests.engines.native.plc import MODEL
 from tests.engines.native.test_against_reference import agree
@@ -25,6 +25,7 @@ def divide(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(inlining, "PIECE", 2)
 
 
+@nightly
 @pytest.mark.parametrize("case", some(CASES, 24, 5), ids=[case.name for case in some(CASES, 24, 5)])
 def test_cases_in_pieces(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     divide(monkeypatch)
