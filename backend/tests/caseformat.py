@@ -21,7 +21,7 @@ from scanbench.syntax.language_file import dialect_named, with_dialect
 from scanbench.syntax.literals import date_and_time, duration
 
 HEAD = re.compile(
-    r"^\[(case|source|scans|trap|model|interval|budget|dialect|feature|violations|file|clock|start|both|libraries)\b\s*(.*?)\]\s*$"
+    r"^\[(case|source|scans|trap|model|interval|budget|dialect|feature|violations|calls|file|clock|start|both|libraries)\b\s*(.*?)\]\s*$"
 )
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(
@@ -54,6 +54,8 @@ class Case:
     """Numbers of what it shows, as in `tests/features`: `72.4`."""
     violations: list[str] | None = None
     """The list of subrange violations after the last scan, as `shown_violations` writes it."""
+    calls: list[str] | None = None
+    """Who called, of each of them: `Violation.path`, or `-`."""
     files: dict[str, str] = field(default_factory=dict)
     """Beside `source`: what is in `plant/`."""
     epoch_ns: int = 0
@@ -99,6 +101,10 @@ def _read_cases(path: Path) -> list[Case]:
             expected_violations = cases[-1].violations
             assert expected_violations is not None
             expected_violations.append(line.strip())
+        elif part == "calls" and line.strip():
+            expected_calls = cases[-1].calls
+            assert expected_calls is not None
+            expected_calls.append(line.strip())
         elif part == "scans" and line.strip():
             match = LINE.match(line)
             assert match, f"{path}:{number}: a line is `scan: sets | expectations`"
@@ -131,6 +137,8 @@ def _head(case: Case, part: str, rest: str) -> None:
             case.files[rest] = ""
         case "violations":
             case.violations = []
+        case "calls":
+            case.calls = []
         case "both":
             case.both = True
         case "libraries":
@@ -225,6 +233,8 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
         check_stop(program, case, stops[0], scan == last)
     if case.violations is not None:
         assert shown_violations(program, memories[0]) == case.violations
+    if case.calls is not None:
+        assert [each.path or "-" for each in read_violations(program, memories[0]).entries] == case.calls
 
 
 def shown_asked(memory: bytearray) -> str:

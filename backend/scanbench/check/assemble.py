@@ -73,9 +73,8 @@ def assemble(
         if configuration is not None or not planner.has_programs:  # else they call each other, which was reported
             _tell_empty(report, where, around)
         return None
-    areas = place_areas(declarations.model)
-    layout = Layout(declarations.model, areas, variables, pous.aliases, declarations.symbols)
-    resources = [each.name for each in planner.resources if each.name]
+    model = declarations.model
+    layout = Layout(model, place_areas(model), variables, pous.aliases, declarations.symbols)
     placing = _Placing(report, pous, align(around.placed.size), dict(around.placed.members))
     common = placing.one_by_one(around.common)
     life = placing.one_by_one([] if around.life is None else [around.life.pou])
@@ -83,25 +82,27 @@ def assemble(
     called = placing.called()
     plant = placing.one_by_one(around.plant)
     instances = [*placing.instances.values(), *called]
-    wiring = Wiring(report, declarations, pous, variables, instances, resources)
+    wiring = Wiring(report, declarations, pous, variables, instances, planner.named)
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
-    layout.frames = _place_violations(report, layout, align(placing.at))
-    if around.life is not None:
-        around.life.write([*instances, *plant])
     run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
     others = {*around.common, *around.plant, *(each.pou for each in called)}
     needed, tasked = _reachable(order, pous, others | run), _reachable(order, pous, run)
+    noted = _noted(report, needed, pous)
+    layout.frames = _place_violations(report, layout, align(placing.at), bool(noted))
+    if around.life is not None:
+        around.life.write([*instances, *plant])
     layout.state_size = _place_frames([each for each in needed if each.addressed], layout.frames)
     layout.size = _place_frames([each for each in needed if not each.addressed], layout.state_size)
+    layout.size = _place_callers(needed, noted, layout.size)
     running = [*common, *life, *instances, *plant]
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
     image = _initial_image(layout, declarations, variables, running)
     program = Program(
-        tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks),
+        tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks), tuple(report.calls),
         common=common, plant=plant, tasked=tuple(tasked), life=life, called=called,
     )  # fmt: skip
-    settings = Settings(report, declarations, program, resources)
+    settings = Settings(report, declarations, program, planner.named)
     return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
 
 
@@ -118,12 +119,33 @@ def _planned(report: Report, planner: Planner, configurations: list[tree.Configu
     return planned
 
 
-def _place_violations(report: Report, layout: Layout, at: int) -> int:
-    """Gives the list of violations its place, where the program has subrange checks; the byte after the state."""
+def _noted(report: Report, needed: list[Pou], pous: Pous) -> set[Pou]:
+    """What is called and has checks, or calls something that has: its callers write down that they call it."""
+    callers: dict[Pou, list[Pou]] = {}
+    for pou in needed:
+        for callee in pous.uses.get(pou, {}):
+            callers.setdefault(callee, []).append(pou)
+    parts = ((pou, report.parts.get(pou)) for pou in needed)
+    open_ = [pou for pou, part in parts if part is not None and any(not each.needless for each in part.checks)]
+    found = set(open_)
+    while open_:
+        for caller in callers.get(open_.pop(), ()):
+            if caller not in found:
+                found.add(caller)
+                open_.append(caller)
+    return found & callers.keys()
+
+
+def _place_violations(report: Report, layout: Layout, at: int, paths: bool) -> int:
+    """Gives the list of violations its place, where the program has subrange checks, and their paths; the byte after the state."""
     if not report.checks:
         return at
     layout.violations = at
-    return align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
+    at = align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
+    if not paths:
+        return at
+    layout.paths = at
+    return at + 8 * Layout.PATH_LIMIT * Layout.VIOLATION_LIMIT
 
 
 def _tasks(
@@ -278,6 +300,14 @@ def _place_frames(pous: list[Pou], at: int) -> int:
     for pou in pous:
         pou.frame_offset = at
         at = align(at + pou.frame.size)
+    return at
+
+
+def _place_callers(pous: list[Pou], noted: set[Pou], at: int) -> int:
+    """Gives each of the noted ones the place of its caller, from this byte of the image on; the byte after the last one."""
+    for pou in pous:
+        pou.called_at = at if pou in noted else 0
+        at += 8 if pou in noted else 0
     return at
 
 

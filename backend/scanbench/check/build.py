@@ -55,7 +55,7 @@ from scanbench.plcmodel.user_errors import extended, is_of_catalogue
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import Assign, Base, Const, Expr, Place, Pou, Program
-from scanbench.program.sites import CheckSite
+from scanbench.program.sites import CheckSite, plain_sites
 from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
@@ -137,11 +137,11 @@ def concluded(files: Sequence[Chunked], report: Report, program: Program | None,
     infos = tuple(pou_infos(trees))
     if any(problem.severity is Severity.ERROR for problem in problems):
         return Checked(None, tuple(problems), infos)
-    checks = tuple(replace(site, span=site.span.plain()) for site in report.checks)
+    checks = plain_sites(report.checks)
     tasks = () if program is None else task_infos(program, trees)
     if program is not None:
-        traps = tuple(replace(site, span=site.span.plain()) for site in program.traps)
-        program = replace(program, traps=traps, checks=checks) if whole else None
+        traps, calls = plain_sites(program.traps), plain_sites(program.calls)
+        program = replace(program, traps=traps, checks=checks, calls=calls) if whole else None
     return Checked(program, tuple(problems), infos, checks, tasks)
 
 
@@ -168,7 +168,7 @@ class Checker:
     stimuli: Stimuli = field(default_factory=Stimuli)
     life: Life | None = None
     """What initialises instances, where the dialect has that."""
-    declared: Mark = (0, 0, 0, 0, 0, 0, 0)
+    declared: Mark = (0, 0, 0, 0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
     """Members, size and alignment of the frame of each POU, before its body adds temporaries."""

@@ -13,14 +13,14 @@ from typing import NamedTuple
 from scanbench.check.uses import Symbol, Use
 from scanbench.problems import Problem, Severity, Span, perhaps
 from scanbench.program.program import Pou
-from scanbench.program.sites import CheckSite, TrapKind, TrapSite
+from scanbench.program.sites import CallSite, CheckSite, TrapKind, TrapSite
 
 
 class Rejected(Exception):
     """A construct was reported as wrong; whoever checks the next one catches it."""
 
 
-Mark = tuple[int, int, int, int, int, int, int]
+Mark = tuple[int, int, int, int, int, int, int, int]
 """Lengths of the lists of a report."""
 
 UNKNOWN = ("T001", "D002")
@@ -47,6 +47,7 @@ class Report:
     problems: list[Problem] = field(default_factory=list)
     traps: list[TrapSite] = field(default_factory=list)
     checks: list[CheckSite] = field(default_factory=list)
+    calls: list[CallSite] = field(default_factory=list)
     uses: list[Use] = field(default_factory=list)
     """Which names mean what; some are told more than once."""
     written: list[Span] = field(default_factory=list)
@@ -66,15 +67,15 @@ class Report:
     def apart(self) -> Iterator["Report"]:
         """What is met meanwhile goes into a report of its own, for `parts`."""
         names = self.uses, self.written, self.lent, self.borrowed
-        before, inner = (self.problems, self.traps, self.checks), Report()
-        self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
+        before, inner = (self.problems, self.traps, self.checks, self.calls), Report()
+        self.problems, self.traps, self.checks, self.calls = inner.problems, inner.traps, inner.checks, inner.calls
         self.uses, self.written, self.lent, self.borrowed = inner.uses, inner.written, inner.lent, inner.borrowed
         known = self._told, self._near
         self._told, self._near = inner._told, inner._near
         try:
             yield inner
         finally:
-            self.problems, self.traps, self.checks = before
+            self.problems, self.traps, self.checks, self.calls = before
             self.uses, self.written, self.lent, self.borrowed = names
             self._told, self._near = known
 
@@ -92,11 +93,12 @@ class Report:
         for pou in order:
             part = self.parts.get(pou)
             if part is not None:
-                pou.first_trap, pou.first_check = len(self.traps), len(self.checks)
+                pou.first_trap, pou.first_check, pou.first_call = len(self.traps), len(self.checks), len(self.calls)
                 self.problems += [problem for problem in part.problems if problem not in told]
                 told.update(part.problems)
                 self.traps += part.traps
                 self.checks += part.checks
+                self.calls += part.calls
 
     def error(self, code: str, message: str, span: Span) -> None:
         problem = Problem(code, message, span)
@@ -123,23 +125,28 @@ class Report:
         self.checks.append(site)
         return len(self.checks)
 
+    def call(self, site: CallSite) -> int:
+        """The number of a new call: its index plus one."""
+        self.calls.append(site)
+        return len(self.calls)
+
     def use(self, span: Span, name: str, symbol: Symbol) -> None:
         """Notes what a name means; `span` ends in the name, of which only the part after the last point counts."""
         self.uses.append(Use(span, len(name) - name.rfind(".") - 1, symbol))
 
     def mark(self) -> Mark:
         """Where the lists end now, for `undo`."""
-        found = len(self.problems), len(self.traps), len(self.checks)
+        found = len(self.problems), len(self.traps), len(self.checks), len(self.calls)
         return *found, len(self.uses), len(self.written), len(self.lent), len(self.borrowed)
 
     def undo(self, mark: Mark) -> None:
         """Forgets what was reported since, before the same is checked once more."""
-        problems, traps, checks, uses, written, lent, borrowed = mark
+        problems, traps, checks, calls, uses, written, lent, borrowed = mark
         for each in self.problems[problems:]:
             same = self._told.get((each.code, each.message), [])
             if each in same:
                 same.remove(each)
-        del self.problems[problems:], self.traps[traps:], self.checks[checks:]
+        del self.problems[problems:], self.traps[traps:], self.checks[checks:], self.calls[calls:]
         del self.uses[uses:], self.written[written:], self.lent[lent:], self.borrowed[borrowed:]
 
     def needless(self, number: int, why: str) -> None:

@@ -24,6 +24,7 @@ from scanbench.cli.run_report import (
     run_junit,
     texts,
     trap_text,
+    unvalued,
     values,
 )
 from scanbench.engines.engine import Engine
@@ -198,6 +199,8 @@ def _end(
     if interrupted:
         typer.echo(f"scanbench: interrupted after {result.scans:,} scans", err=True)
         raise typer.Exit(INTERRUPTED)
+    if until is not None and result.unvalued is not None:
+        typer.echo(f"scanbench: {unvalued(result, until)}", err=True)
     if until is not None and not result.met:
         typer.echo(f"scanbench: after {result.scans} scans it was not so that {until}", err=True)
         raise typer.Exit(2)

@@ -2,10 +2,11 @@
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import typer
 
+from scanbench.check.typed.condition import without_value
 from scanbench.program.sites import TrapKind
 from scanbench.recording.headless import HeadlessRun
 from scanbench.reports.junit import Case, junit
@@ -40,6 +41,7 @@ def report_json(result: Result, shown: Shown, problems: list[dict[str, str | int
         "rows": [{"scan": scan, "time_ns": scan * interval, "values": row} for scan, row in result.rows],
         **({"hash": _hash(resource)} if with_hash else {}),
         "problems": problems,
+        "until_unvalued": result.unvalued,
         "refused": [{"scan": each.scan, "message": each.refusal.message} for each in result.refused],
         "violations": _violations(resource),
         "violations_dropped": read_violations(resource.program, resource.memory).dropped,
@@ -58,33 +60,46 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
         typer.echo(f"{path} = {worth_text(resource.program, resource.memory, symbol)}")
     if with_hash:
         typer.echo(f"sha256 {_hash(resource)}")
+    for line in _outside(resource):
+        typer.echo(line, err=True)
+    seconds = f"{result.scans * resource.program.interval_ns / 1e9:,.6f}".rstrip("0").rstrip(".")
+    typer.echo(f"{result.scans:,} scans, {seconds} s of PLC time", err=True)
+
+
+def _outside(resource: Resource) -> Iterator[str]:
+    """Values that left their subranges, a line each."""
     violations = read_violations(resource.program, resource.memory)
     for each in violations.entries[:VIOLATIONS_SHOWN]:
         times = f"{each.times} times, scans {each.first_scan} to {each.last_scan}"
-        typer.echo(f"{each.span}: subrange: {each}, {times}", err=True)
+        yield f"{each.span}: subrange: {each.told}, {times}"
     more = len(violations.entries) - VIOLATIONS_SHOWN
     if more > 0:
         note = f"subrange: {more} more places, {violations.count} violations in all; --json lists the places"
         if violations.dropped:
             note += f" (the list is full: {violations.dropped} violations are not in it)"
-        typer.echo(note, err=True)
-    seconds = f"{result.scans * resource.program.interval_ns / 1e9:,.6f}".rstrip("0").rstrip(".")
-    typer.echo(f"{result.scans:,} scans, {seconds} s of PLC time", err=True)
+        yield note
 
 
 def run_junit(name: str, result: Result, untaken: Sequence[str], until: str | None, interrupted: bool) -> str:
     """For a build server: did the program run, was each command taken?"""
-    trap, ran = result.resource.trap, Case("run", _RUNS)
+    trap, outside = result.resource.trap, "\n".join(_outside(result.resource))
+    ran = Case("run", _RUNS, text=outside)
     if trap is not None:
-        ran = Case("run", _RUNS, "failure", trap_text(trap), "trap")
+        ran = Case("run", _RUNS, "failure", trap_text(trap), "trap", outside)
     elif interrupted:
-        ran = Case("run", _RUNS, "error", f"interrupted after {result.scans:,} scans", "interrupted")
+        ran = Case("run", _RUNS, "error", f"interrupted after {result.scans:,} scans", "interrupted", outside)
     elif until is not None and not result.met:
-        ran = Case("run", _RUNS, "failure", f"after {result.scans:,} scans it was not so that {until}", "until")
+        told = f"after {result.scans:,} scans it was not so that {until}"
+        ran = Case("run", _RUNS, "failure", "; ".join(filter(None, (told, unvalued(result, until)))), "until", outside)
     cases = [ran, Case("run", _TAKEN)]
     if untaken:
         cases[1] = Case("run", _TAKEN, "error", untaken[0], "refused", "\n".join(untaken))
     return junit(name, cases)
+
+
+def unvalued(result: Result, until: str) -> str:
+    """When the condition of --until had no value, if ever."""
+    return "" if result.unvalued is None else without_value(until, result.unvalued)
 
 
 def differ_junit(name: str, difference: str) -> str:
@@ -127,6 +142,11 @@ def _violations(resource: Resource) -> list[Json]:
             "file": each.span.file, "line": each.span.line, "column": each.span.column, "pou": each.pou,
             "instance": each.instance, "variable": each.variable, "target": each.target, "value": each.value, "low": each.low,
             "high": each.high, "times": each.times, "first_scan": each.first_scan, "last_scan": each.last_scan,
+            "calls": [
+                {"pou": call.pou, "instance": call.instance, "file": call.span.file, "line": call.span.line, "column": call.span.column}
+                for call in each.calls
+            ],
+            "calls_cut": each.cut,
         }
         for each in read_violations(resource.program, resource.memory).entries
     ]  # fmt: skip

@@ -17,7 +17,7 @@ class Violating:
     def __init__(self, resource: Resource, placing: Placing) -> None:
         self._resource, self._placing = resource, placing
         self._listens = False
-        self._times: dict[tuple[int, str, str], int] = {}
+        self._times: dict[int, int] = {}
         """Of each entry how often so far."""
         self._frames: tuple[Frame, ...] = ()
         """The calls that are open in the statement that runs."""
@@ -26,7 +26,7 @@ class Violating:
         """Before each run."""
         self._listens, self._frames = listens, ()
         if listens:
-            self._times = {each.key: each.times for each in self._entries()}
+            self._times = self._now()
 
     def statement(self) -> None:
         """Before a statement."""
@@ -35,8 +35,8 @@ class Violating:
 
     def found(self, breakpoint: Breakpoint) -> Found:
         """The halt after a statement in which something was recorded."""
-        new = [each for each in self._entries() if each.times != self._times.get(each.key)]
-        self._times |= {each.key: each.times for each in new}
+        new = [each for number, each in enumerate(self._entries()) if each.times != self._times.get(number)]
+        self._times = self._now()
         ids = (breakpoint.id,)
         if not new:  # the list is full
             return Found("violation", "a value left its subrange", breakpoint.author, ids)
@@ -56,6 +56,9 @@ class Violating:
             text = f"{one.name} was {one.value}, outside of {one.low}..{one.high}"
         where = one.instance or one.pou
         return Found("violation", f"{text}, at {left.place} in {where}", breakpoint.author, ids, left)
+
+    def _now(self) -> dict[int, int]:
+        return {number: each.times for number, each in enumerate(self._entries())}
 
     def _entries(self) -> tuple[Violation, ...]:
         return read_violations(self._resource.program, self._resource.memory).entries

@@ -17,7 +17,7 @@ image may come from a file).
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from scanbench.check.typed.condition import Condition
@@ -101,6 +101,12 @@ class Engine(ABC):
     @abstractmethod
     def holds(self, condition: Condition) -> bool:
         """Whether the condition, made for this engine's program, holds now. Not while `run` is running."""
+
+    def truth(self, condition: Condition) -> bool | None:
+        """The same, but None where it has no value."""
+        if not self.holds(replace(condition, unknown=True)):
+            return False
+        return True if self.holds(replace(condition, unknown=False)) else None
 
     @abstractmethod
     def sample(self, *samplings: Sampling) -> None:

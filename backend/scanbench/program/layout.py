@@ -5,6 +5,7 @@
     4096  areas of the model, globals, program instances, then `violations`, each aligned to 8
     ...   `frames`: frames of temporaries follow, first those whose variables a reference may refer to (`Pou.addressed`)
     ...   `state_size`: here the compared, hashed and recorded state ends; the other frames follow
+    ...   who called each POU whose calls are noted (`Pou.called_at`)
     size
 
 Every POU needs exactly one frame, and its place is known, as recursion is refused or its frame is kept meanwhile (`Pou.recursive`):
@@ -79,7 +80,7 @@ class Layout:
     VIOLATION_BYTES: ClassVar[int] = 48
     """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body or method has the check
     (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, and a u64 that says more. Entries are (site, instance,
-    bound variable) triples in the order in which they first happened."""
+    bound variable) triples, each with its path (`paths`), in the order in which they first happened."""
     VIOLATION_BOUND: ClassVar[int] = (1 << 32) - 1
     """Bits of what says more: byte offset of the variable that was checked by the name of an in-out or through a reference, found through the
     copies of in-outs by value (`Copies.chain`); 0 for a variable that was checked by its own name."""
@@ -89,6 +90,11 @@ class Layout:
     """A bit: not even in 65; the value is the nearest number that has."""
     VIOLATION_SIGN: ClassVar[int] = 63
     """A bit: the 65th, the sign."""
+
+    PATH_LIMIT: ClassVar[int] = 8
+    """Calls of a path: the innermost ones, of which each is a u64. Bits 0-31 have the number of the call (`Program.calls`, 0: the system called, or
+    there is no more), the others the byte offset of the instance that calls (0 in a FUNCTION). Before each call of a POU with a
+    `Pou.called_at` the caller writes such a number there. Entries of the list of violations that have different paths are different."""
 
     model: Model
     areas: dict[str, int] = field(default_factory=dict)
@@ -105,6 +111,8 @@ class Layout:
     violations: int = 0
     """Offset of the list, 0 when the program has no checks: u32 entries in use, u32 violations dropped because the list
     was full (saturating), then the entries."""
+    paths: int = 0
+    """Offset of the path of each entry; 0 when nothing that is called has checks. It follows the list, as part of the state."""
 
     copies: Copies = field(default_factory=Copies)
     """The own variables of blocks that take in-outs by value."""

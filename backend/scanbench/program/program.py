@@ -2,32 +2,29 @@
 
 The contract of the two engines; no behaviour here. Semantics that both must keep to the bit:
 
-- Integers wrap at the declared width. `div` by zero traps, the smallest number / -1 wraps; `mod` has the sign of the
-  dividend, `a MOD 0` and `smallest MOD -1` are 0. Bit strings are unsigned.
-- REAL is computed in single precision, each operation rounded; LREAL in double; no contraction, no fast-math. `mod` is
-  not defined for them; `div` by zero gives an infinity or NaN. A NaN is *stored* as the canonical quiet NaN
-  (16#7FC0_0000, 16#7FF8_0000_0000_0000), unless the assignment copies a variable (`bodies.keeps_bits`). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
-- `Convert`: between integers, bit strings, BOOL and TIME: sign or zero extension by the *source*, then truncation; to
-  BOOL: value <> 0. Integer to REAL: nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated
-  at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING: only STRING to STRING (cut at capacity).
-- AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right; an assignment evaluates
-  the value, then the address of its target; that of an output's target comes after the call, of a function after all it gives is read.
-- FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is
-  stored to the variable at the start of every round, and once more when the loop ends normally (the value that failed
-  the test, wrapped at the width of the variable). A loop over the full range of its type ends. Step 0 gives no round.
-  Budget is taken before the counter is stored; the place of the variable is evaluated at each store.
-- Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with
-  `exits`; a FOR without `exits` takes all its rounds from it at once before the first (saturating at i64). Where it
-  falls below zero the loop traps with kind `loop` (before the round's body).
+- Integers wrap at the declared width. `div` by zero traps, the smallest number / -1 wraps; `mod` has the sign of the dividend, `a MOD 0` and `smallest MOD -1`
+  are 0. Bit strings are unsigned.
+- REAL is computed in single precision, each operation rounded; LREAL in double; no contraction, no fast-math. `mod` is not defined for them; `div` by zero
+  gives an infinity or NaN. A NaN is *stored* as the canonical quiet NaN (16#7FC0_0000, 16#7FF8_0000_0000_0000), unless the assignment copies a variable
+  (`bodies.keeps_bits`). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
+- `Convert`: between integers, bit strings, BOOL and TIME: sign or zero extension by the *source*, then truncation; to BOOL: value <> 0. Integer to REAL:
+  nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING:
+  only STRING to STRING (cut at capacity).
+- AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right; an assignment evaluates the value, then the address of its
+  target; that of an output's target comes after the call, of a function after all it gives is read.
+- FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is stored to the variable at the start of every
+  round, and once more when the loop ends normally (the value that failed the test, wrapped at the width of the variable). A loop over the full range of its
+  type ends. Step 0 gives no round. Budget is taken before the counter is stored; the place of the variable is evaluated at each store.
+- Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with `exits`; a FOR without `exits` takes all
+  its rounds from it at once before the first (saturating at i64). Where it falls below zero the loop traps with kind `loop` (before the round's body).
 - CONTINUE goes on with the next round: FOR's count, WHILE's condition, REPEAT's UNTIL.
-- Types are seen by `kind` and `size` alone: an Enumeration, Subrange or Reference computes like its base (a reference
-  like an unsigned 64-bit integer), DATE like TIME, CHAR like a bit string.
-- A reference or in-out slot holds a byte offset in bits 0-31 and a bit number, which BOOL alone looks at, in bits
-  32-34. It traps at `null_trap` (0 is NULL), before the indices are evaluated, where bits 35-63 are not 0, or the byte
-  offset is below `Layout.HEADER_SIZE`, or byte offset + `Place.offset` + the largest distance of the indices with fixed
-  bounds + the size of `Place.type` is beyond the end: for a slot that of the image, for `Place.reference` that of the
-  state (`Layout.state_size`), because a program must not depend on the contents of frames between calls. With an index of
-  computed bounds the place that was found must lie in there too. After a reference nothing is known of alignment.
+- Types are seen by `kind` and `size` alone: an Enumeration, Subrange or Reference computes like its base (a reference like an unsigned 64-bit integer), DATE
+  like TIME, CHAR like a bit string.
+- A reference or in-out slot holds a byte offset in bits 0-31 and a bit number, which BOOL alone looks at, in bits 32-34. It traps at `null_trap` (0 is NULL),
+  before the indices are evaluated, where bits 35-63 are not 0, or the byte offset is below `Layout.HEADER_SIZE`, or byte offset + `Place.offset` + the largest
+  distance of the indices with fixed bounds + the size of `Place.type` is beyond the end: for a slot that of the image, for `Place.reference` that of the state
+  (`Layout.state_size`), because a program must not depend on the contents of frames between calls. With an index of computed bounds the place that was found
+  must lie in there too. After a reference nothing is known of alignment.
 - A BOOL in a whole byte is written as 0 or 1, and read as bit 0.
 - A string value longer than the capacity of its target is cut. Only the length and the characters are written.
 - A trap ends the scan at once; what was written before it stays.
@@ -38,7 +35,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from scanbench.problems import Span
-from scanbench.program.sites import CheckSite, TrapSite
+from scanbench.program.sites import CallSite, CheckSite, TrapSite
 from scanbench.program.types import Elementary, Member, Record, Reference, Section, StringType, Type
 from scanbench.syntax.language_file import DialectName
 
@@ -77,13 +74,11 @@ class Index:
 class Place:
     """Address = base + offset + the indices' strides. With `slot`, base is the reference stored there instead.
 
-    With `reference`, base is the value of that expression, of a Reference type (evaluated before the indices).
-    `bit` is set for one bit of a byte: a BOOL inside an area, or a bit of an integer. A BOOL reached through a slot or reference
-    without `bit` is the bit that the reference says. `type` may be smaller than the variable (a part of an integer, a
-    member of a union), so places of one variable may overlap in any way. `variable` names the declared variable that holds this place ('' when it
-    may be any, as through an in-out): places of different variables never overlap, except that all places whose
-    variable begins with '@' (areas of the model) may overlap each other.
-    """
+    With `reference`, base is the value of that expression, of a Reference type (evaluated before the indices). `bit` is set for one bit of a byte: a BOOL
+    inside an area, or a bit of an integer. A BOOL reached through a slot or reference without `bit` is the bit that the reference says. `type` may be smaller
+    than the variable (a part of an integer, a member of a union), so places of one variable may overlap in any way. `variable` names the declared variable that
+    holds this place ('' when it may be any, as through an in-out): places of different variables never overlap, except that all places whose variable begins
+    with '@' (areas of the model) may overlap each other."""
 
     type: Type
     base: Base
@@ -168,13 +163,13 @@ class Intrinsic:
 class CallFunction:
     """A user's (or an ST library's) FUNCTION. All of `args` are evaluated, in order, before anything is stored.
 
-    `args` go with `Pou.parameters`: an Expr for an input, a Place for an in-out (its reference), a Place or None for
-    an output (receives the value after the call).
-    """
+    `args` go with `Pou.parameters`: an Expr for an input, a Place for an in-out (its reference), a Place or None for an output (receives the value after the
+    call)."""
 
     pou: "Pou"
     type: Type | None
     args: tuple["Expr | Place | None", ...]
+    site: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,9 +249,8 @@ class SetBytes:
 class CallBlock:
     """Runs a FUNCTION_BLOCK instance. The instance's address is computed once, first.
 
-    Then, in order of writing: each input is evaluated and stored (`inputs`: place relative to the instance, as
-    Base.SELF of the callee), each in-out's reference is stored in its slot; the body runs; outputs are copied out.
-    """
+    Then, in order of writing: each input is evaluated and stored (`inputs`: place relative to the instance, as Base.SELF of the callee), each in-out's
+    reference is stored in its slot; the body runs; outputs are copied out."""
 
     instance: Place
     pou: "Pou"
@@ -265,6 +259,7 @@ class CallBlock:
     outputs: tuple[tuple[Expr, Place], ...]
     """(value, where Base.SELF is the *callee*; target, where Base.SELF is the caller)."""
     span: Span
+    site: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -355,8 +350,7 @@ class Blocks:
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """Goes on at block `target` of the Blocks around, also out of what is in its block. A jump to its own or an earlier block
-    takes one from the loop budget."""
+    """Goes on at block `target` of the Blocks around, also out of what is in its block. A jump to its own or an earlier block takes one from the loop budget."""
 
     target: int
     back: bool
@@ -366,12 +360,11 @@ class Jump:
 
 @dataclass(frozen=True, slots=True)
 class Try:
-    """Runs `body`. A trap in it, also in what it calls, whose kind has a code (`sites.EXCEPTIONS`), ends the body
-    there: `Layout.DEPTH` becomes what it was at the beginning, the code is stored in `code`, and `handler` runs.
+    """Runs `body`. A trap in it, also in what it calls, whose kind has a code (`sites.EXCEPTIONS`), ends the body there: `Layout.DEPTH` becomes what it was at
+    the beginning, the code is stored in `code`, and `handler` runs.
 
-    Then `final` runs, also where body or handler leave (EXIT, CONTINUE, RETURN, a jump) or the handler traps itself with such a
-    kind; after it what was interrupted goes on. Nothing leaves `final`. A trap without a code ends the scan at once.
-    """
+    Then `final` runs, also where body or handler leave (EXIT, CONTINUE, RETURN, a jump) or the handler traps itself with such a kind; after it what was
+    interrupted goes on. Nothing leaves `final`. A trap without a code ends the scan at once."""
 
     body: tuple["Stmt", ...]
     code: Place
@@ -419,8 +412,11 @@ class Pou:
     addressed: bool = False
     """A reference is made to a variable of its frame, which is part of the state then."""
     first_trap: int = 0
-    """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`); checks from `first_check`."""
+    """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`); checks from `first_check`, calls from `first_call`."""
     first_check: int = 0
+    first_call: int = 0
+    called_at: int = 0
+    """Where in the image its caller writes who calls (`Layout.PATH_LIMIT`); 0 where nothing in it, or in what it calls, can be outside of a subrange."""
 
     @property
     def this(self) -> Member | None:
@@ -449,6 +445,7 @@ class Program:
     layout: "Layout"
     initial_image: bytes
     checks: tuple[CheckSite, ...] = ()
+    calls: tuple[CallSite, ...] = ()
     accesses: tuple["AccessPath", ...] = ()
     common: tuple["ProgramInstance", ...] = ()
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""

@@ -1,7 +1,9 @@
 """Places of the source text that engines name by a number: where a run-time error can happen, and where a subrange is checked."""
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import TypeVar
 
 from scanbench.problems import Span
 
@@ -41,6 +43,16 @@ class TrapSite:
 
 
 @dataclass(frozen=True, slots=True)
+class CallSite:
+    """A place that calls; engines name it by its index in `Program.calls` plus one, and 0 is a call by the system."""
+
+    span: Span
+    pou: str
+    passes: bool = False
+    """Nobody wrote this call: it only passes on to the body that an instance has."""
+
+
+@dataclass(frozen=True, slots=True)
 class CheckSite:
     """A subrange check that the compiler embedded; engines name it by its index in `Program.checks` plus one."""
 
@@ -52,3 +64,11 @@ class CheckSite:
     high: int
     needless: str = ""
     """Why no check was embedded here, empty when there is one. Shown, never run."""
+
+
+_Site = TypeVar("_Site", TrapSite, CallSite, CheckSite)
+
+
+def plain_sites(sites: Iterable[_Site]) -> tuple[_Site, ...]:
+    """The same without the texts that spans of a tree may keep."""
+    return tuple(replace(site, span=site.span.plain()) for site in sites)

@@ -1,7 +1,7 @@
 """Runs a program without a clock, a socket or a person: the same commands give the same image, every time."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 from scanbench.check.typed.condition import Condition
@@ -40,6 +40,8 @@ class HeadlessRun(Generic[T]):
     """(scans run so far, what `sample` saw), every `every` scans."""
     met: bool = False
     """The run ended because the condition held."""
+    unvalued: int | None = None
+    """After this scan the condition had no value for the first time."""
 
 
 def run_headless(
@@ -51,34 +53,29 @@ def run_headless(
 ) -> HeadlessRun[T]:  # fmt: skip
     """Runs `scans` scans from a cold start in MONITOR mode.
 
-    A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.
-    n == `scans` is the seam after the last scan; what is later does not come to pass. While the program is stopped (a fatal
-    error, mode PROGRAM) scans pass without it; the `agenda` enters what is due before the commands for a seam. A trap ends the run at once, and so does the first scan after which `until`
-    holds, a condition for the program that the run begins with.
+    A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given. n == `scans` is the seam after the
+    last scan; what is later does not come to pass. While the program is stopped (a fatal error, mode PROGRAM) scans pass without it; the `agenda` enters
+    what is due before the commands for a seam. A trap ends the run at once, and so does the first scan after which `until` holds, a condition for the
+    program that the run begins with.
 
-    A `recording` that is still at the cold start receives the whole run, with checkpoints, and is left open; `entries`
-    has only what is still in there. Asked by the `interrupt`, the run ends after the scan that is running. `on_begin` is told
-    the PLC before its first scan.
+    A `recording` that is still at the cold start receives the whole run, with checkpoints, and is left open; `entries` has only what is still in there.
+    Asked by the `interrupt`, the run ends after the scan that is running. `on_begin` is told the PLC before its first scan.
     """
     loaded = Loaded.make(program, engine_factory)
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
-    resource.waiting.until = () if until is None else (until,)
-    if interrupt is not None:
-        interrupt.reaches(resource.interrupt)
-    if on_begin is not None:
-        on_begin(resource)
-    met = False
+    awaited = _Awaited(resource, until)
+    _begin(resource, interrupt, on_begin)
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []
     waiting = sorted(commands_at, key=lambda pair: pair[0])
     while resource.trap is None:
         now = resource.header.scan
         refused += _entered(resource, waiting, recorded)
-        if now >= scans or met or (interrupt is not None and interrupt.asked):
+        if now >= scans or awaited.met or (interrupt is not None and interrupt.asked):
             break
         stop = min([scans, *_stops(resource, waiting, every, recorded)])
-        met = _advance(resource, stop - now)  # perhaps less: it comes back for what the program asks for
+        awaited.run(stop - now)
         if recorded is not None:
             recorded.take_due()
         done = resource.header.scan
@@ -86,7 +83,23 @@ def run_headless(
             rows.append((done, sample(resource)))
     if recorded is not None:
         recorded.end()
-    return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows), met)
+    return HeadlessRun(
+        resource,
+        resource.header.scan,
+        tuple(resource.journal),
+        tuple(refused),
+        tuple(rows),
+        awaited.met,
+        awaited.unvalued,
+    )
+
+
+def _begin(resource: Resource, interrupt: Interrupt | None, on_begin: Callable[[Resource], None] | None) -> None:
+    """Tells who waits for the PLC."""
+    if interrupt is not None:
+        interrupt.reaches(resource.interrupt)
+    if on_begin is not None:
+        on_begin(resource)
 
 
 def _entered(resource: Resource, waiting: list[tuple[int, Command]], recorded: "_Recorded | None") -> Iterator[Refused]:
@@ -113,12 +126,27 @@ def _stops(
         yield now + recorded.slice()
 
 
-def _advance(resource: Resource, scans: int) -> bool:
-    """Whether the condition holds now."""
-    if resource.runnable:
-        return resource.run(scans).reason is Reason.CONDITION
-    resource.idle(scans)
-    return False
+class _Awaited:
+    """The condition at which a run ends."""
+
+    def __init__(self, resource: Resource, until: Condition | None) -> None:
+        self._resource, self._until = resource, until
+        self.met = False
+        self.unvalued: int | None = None
+        """The first scan after which it had no value: the run comes back for that, too, but once."""
+        resource.waiting.until = () if until is None else (until, replace(until, unknown=True))
+
+    def run(self, scans: int) -> None:
+        """So many scans; perhaps less: it comes back for what the program asks for."""
+        resource = self._resource
+        if not resource.runnable:
+            resource.idle(scans)
+        elif resource.run(scans).reason is Reason.CONDITION and self._until is not None:
+            truth = resource.engine.truth(self._until)
+            self.met = truth is True
+            if truth is None:
+                self.unvalued = resource.header.scan - 1
+                resource.waiting.until = (self._until,)
 
 
 class _Recorded:

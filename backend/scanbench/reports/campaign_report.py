@@ -86,6 +86,7 @@ def trial_text(trial: Trial) -> list[str]:
     if trial.differs:
         lines.append("  memory        different at the end")
     lines += [f"  refused       {each}" for each in trial.refused]
+    lines += [f"  no value      {each}" for each in trial.unvalued]
     if trial.why:
         lines.append(f"  why           {trial.why}")
     return lines
@@ -108,7 +109,7 @@ def campaign_json(report: CampaignReport) -> dict[str, Json]:
 
 def _trial(trial: Trial) -> Json:
     told: dict[str, Json] = {
-        **asdict(trial), "program": list(trial.program), "refused": list(trial.refused), "silent": trial.silent
+        **asdict(trial), "program": list(trial.program), "refused": list(trial.refused), "unvalued": list(trial.unvalued), "silent": trial.silent
     }  # fmt: skip
     return told
 

@@ -22,6 +22,10 @@ def system_field(layout: Layout, offset: int) -> tuple[str, int, int] | None:
     meaning by itself its address is the name: `header+43`."""
     if offset < Layout.HEADER_SIZE:
         return _in_header(offset)
+    at = offset - layout.paths
+    if layout.paths and 0 <= at < 8 * Layout.PATH_LIMIT * Layout.VIOLATION_LIMIT:
+        number, rest = divmod(at, 8 * Layout.PATH_LIMIT)
+        return f"violation {number + 1}: call {rest // 8 + 1} (system)", offset - rest % 8, 8
     at = offset - layout.violations
     if not layout.violations or not 0 <= at < _LIST_HEAD + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES:
         return None

@@ -2,8 +2,10 @@
 
 import struct
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from scanbench.problems import Span
+from scanbench.program.calling import callers
 from scanbench.program.copies import Image
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
@@ -13,12 +15,31 @@ from scanbench.symbols.names import names_of
 
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<IIQQQQQ")
+_PATH = struct.Struct("<" + Layout.PATH_LIMIT * "II")
 assert _ENTRY.size == Layout.VIOLATION_BYTES
+
+
+Key: TypeAlias = "tuple[int, str, str, tuple[Calling, ...]]"
+"""Of an entry: its place, instance, variable and path."""
+
+
+@dataclass(frozen=True, slots=True)
+class Calling:
+    """One call that leads to a violation."""
+
+    pou: str
+    instance: str
+    """Path of the instance that calls, '' in a FUNCTION."""
+    span: Span
+    """The call."""
+
+    def __str__(self) -> str:
+        return f"{self.instance or self.pou} {self.span.file}:{self.span.line}"
 
 
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """One place and instance at which a value left its subrange; see `Layout.VIOLATION_BYTES`."""
+    """One place and instance at which a value left its subrange, by one path of calls; see `Layout.VIOLATION_BYTES`."""
 
     site: int
     """Index into `Program.checks` plus one."""
@@ -38,16 +59,30 @@ class Violation:
     first_scan: int
     last_scan: int
     beyond: bool = False
+    calls: tuple[Calling, ...] = ()
+    """Those that lead there, the outermost first; none in what a task runs."""
+    cut: bool = False
+    """Whether there are more outside of them, see `Layout.PATH_LIMIT`."""
 
     @property
-    def key(self) -> tuple[int, str, str]:
-        """What an entry of the list is of: place, instance and variable."""
-        return self.site, self.instance, self.target
+    def key(self) -> Key:
+        """What an entry of the list is of: place, instance, variable and path."""
+        return self.site, self.instance, self.target, self.calls
+
+    @property
+    def path(self) -> str:
+        """The calls in one line: `Main Main.st:12 > Main.belt Belt.st:5`; a `...` for those that are not known."""
+        return " > ".join([*(["..."] if self.cut else []), *map(str, self.calls)])
 
     @property
     def name(self) -> str:
         """The variable, and for one that has a different name there, both."""
         return f"{self.target} (here {self.variable})" if self.target else self.variable
+
+    @property
+    def told(self) -> str:
+        """The violation, and who called."""
+        return f"{self}; called from {self.path}" if self.calls else str(self)
 
     def __str__(self) -> str:
         where = f" in {self.instance}" if self.instance else f" in {self.pou}"
@@ -84,9 +119,10 @@ def read_violations(program: Program, image: Image) -> Violations:
             continue  # a tool wrote over the list
         site = program.checks[number - 1]
         path = names_of(program).instance(instance, site.pou) if instance else ""
+        calls, cut = _path(program, image, index, site.pou)
         made = Violation(
             number, _plain(site.span), site.pou, path, site.variable, _target(program, more), _signed(site, value, more),
-            site.low, site.high, times, first, last, bool(more >> Layout.VIOLATION_BEYOND & 1),
+            site.low, site.high, times, first, last, bool(more >> Layout.VIOLATION_BEYOND & 1), calls, cut,
         )  # fmt: skip
         entries.append(made)
     return Violations(tuple(entries), dropped, count)
@@ -97,7 +133,31 @@ def cleared(layout: Layout) -> tuple[tuple[int, bytes], ...]:
     if not layout.violations:
         return ()
     size = _HEAD.size + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES
+    if layout.paths:
+        size = layout.paths - layout.violations + Layout.VIOLATION_LIMIT * _PATH.size
     return ((layout.violations, bytes(size)), (Layout.SUBRANGE_ERROR, bytes(1)), (Layout.SUBRANGE_COUNT, bytes(4)))
+
+
+def _path(program: Program, image: Image, index: int, pou: str) -> tuple[tuple[Calling, ...], bool]:
+    """The calls that lead to the entry, which is of this POU, and whether there are others around them."""
+    if not program.layout.paths:
+        return (), False
+    numbers = _PATH.unpack_from(image, program.layout.paths + index * _PATH.size)
+    found: list[Calling] = []
+    seen = {pou}
+    for number, instance in zip(numbers[::2], numbers[1::2], strict=True):
+        if not 1 <= number <= len(program.calls):
+            return tuple(reversed(found)), False
+        site = program.calls[number - 1]
+        if not site.passes:
+            path = names_of(program).instance(instance, site.pou) if instance else ""
+            found.append(Calling(site.pou, path, _plain(site.span)))
+        if site.pou in seen:  # who called it before is not in the image any more
+            break
+        seen.add(site.pou)
+    else:  # as many as an entry has
+        return tuple(reversed(found)), callers(program)[numbers[-2] - 1] != 0
+    return tuple(reversed(found)), True
 
 
 def _plain(span: Span) -> Span:

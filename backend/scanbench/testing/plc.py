@@ -103,10 +103,7 @@ class Plc:
 
     def truth(self, condition: str) -> bool | None:
         """Whether it holds now; None where it has no value."""
-        engine = self._resource.engine
-        if engine.holds(self.condition(condition)):
-            return True
-        return None if engine.holds(self.condition(condition, unknown=True)) else False
+        return self._resource.engine.truth(self.condition(condition))
 
     @property
     def errors(self) -> tuple[str, ...]:

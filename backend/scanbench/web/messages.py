@@ -13,6 +13,7 @@ from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.runtime.forces import ForcedValue
 from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Dap, HaltInfo
+from scanbench.web.messages_diagnostics import Diagnostics
 from scanbench.web.messages_errors import ErrorHistoryRow, SweepProgress
 from scanbench.web.messages_projects import OnlineChange
 from scanbench.web.messages_together import Draft
@@ -259,28 +260,6 @@ class ChangeInstance(Wire):
     limits: InstanceLimits | None = None
 
 
-class Violation(Wire):
-    """A place and instance at which a value left its subrange."""
-
-    file: str
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-    pou: str
-    instance: str = Field(description="path of the instance that ran; empty in a FUNCTION")
-    variable: str
-    target: str = Field(description="the variable, where `variable` is that of an in-out or reference; else empty")
-    value: str
-    beyond: bool = Field(description="the value was farther outside than 65 bits can say")
-    low: str
-    high: str
-    text: str
-    times: int
-    first_scan: int
-    last_scan: int
-
-
 class AppInfo(Wire):
     """What there is on a server."""
 
@@ -299,15 +278,6 @@ class Refusal(Wire):
 
 
 # ---- WebSocket: server to browser -------------------------------------------------------------------------------
-
-
-class Diagnostics(Wire):
-    """The runtime diagnostics, whenever they change: the list is bounded, and says what did not fit."""
-
-    type: Literal["diagnostics"] = "diagnostics"
-    violations: list[Violation]
-    dropped: int
-    count: int
 
 
 class Hello(Wire):

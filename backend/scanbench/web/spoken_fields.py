@@ -25,6 +25,7 @@ from scanbench.verify.trace.table import TraceProblem
 from scanbench.web import (
     messages,
     messages_debug,
+    messages_diagnostics,
     messages_errors,
     messages_projects,
     messages_records,
@@ -51,7 +52,7 @@ WIRE: tuple[tuple[type[Wire], str], ...] = (
     (messages.TrapInfo, "message"),
     (messages.InstanceState, "message"),
     (messages.ImportedInstance, "damage"),
-    (messages.Violation, "text"),
+    (messages_diagnostics.Violation, "text"),
     (messages.Refusal, "message"),
     (messages.Done, "message"),
     (messages_debug.HaltInfo, "text"),

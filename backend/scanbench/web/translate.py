@@ -11,9 +11,10 @@ from scanbench.program.sites import CheckSite
 from scanbench.public import iso
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
-from scanbench.symbols.violations import Violation, Violations
+from scanbench.symbols.violations import Calling, Violation, Violations
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
+from scanbench.web import messages_diagnostics as diagnosed
 from scanbench.web import messages_errors as simulator
 from scanbench.web import (
     messages_models,
@@ -167,19 +168,26 @@ def _acknowledged(row: ErrorRow) -> simulator.ErrorAcknowledged | None:
     return simulator.ErrorAcknowledged(by=found.by, at=iso(found.at), scan=found.scan, remark=found.remark)
 
 
-def diagnostics(found: Violations) -> wire.Diagnostics:
+def diagnostics(found: Violations) -> diagnosed.Diagnostics:
     """The runtime diagnostics."""
-    return wire.Diagnostics(violations=list(map(_violation, found.entries)), dropped=found.dropped, count=found.count)
+    return diagnosed.Diagnostics(
+        violations=list(map(_violation, found.entries)), dropped=found.dropped, count=found.count
+    )
 
 
-def _violation(found: Violation) -> wire.Violation:
+def _violation(found: Violation) -> diagnosed.Violation:
     span = found.span
-    return wire.Violation(
+    return diagnosed.Violation(
         file=span.file, line=span.line, column=span.column, end_line=span.end_line, end_column=span.end_column,
         pou=found.pou, instance=found.instance, variable=found.variable, target=found.target, value=str(found.value), low=str(found.low),
         high=str(found.high), text=str(found), times=found.times, first_scan=found.first_scan,
-        last_scan=found.last_scan, beyond=found.beyond,
+        last_scan=found.last_scan, beyond=found.beyond, calls=list(map(_calling, found.calls)), cut=found.cut,
     )  # fmt: skip
+
+
+def _calling(found: Calling) -> diagnosed.Calling:
+    span = found.span
+    return diagnosed.Calling(pou=found.pou, instance=found.instance, file=span.file, line=span.line, column=span.column)
 
 
 def event(happened: events.Told) -> wire.ServerMessage:

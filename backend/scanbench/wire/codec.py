@@ -74,7 +74,7 @@ from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.runtime.write_variables import VariableWrite, WriteVariables
-from scanbench.symbols.violations import Violation, Violations
+from scanbench.symbols.violations import Calling, Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
@@ -113,7 +113,7 @@ _CLASSES: dict[str, type] = {
     cls.__name__: cls
     for cls in (
         Active, ClearErrorLog, ClearErrors, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
-        Violation, Violations, Write,
+        Calling, Violation, Violations, Write,
         Counted, Lost, LostScans, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,

@@ -273,10 +273,13 @@ def test_violations_are_printed_with_their_places_and_not_by_the_hundred(tmp_pat
         "utf-8",
     )
     text = scanbench("run", str(path), "--scans", "2").stderr.splitlines()
-    assert text[0].startswith(f"{path}:4:9: subrange: open in Main.v[1] was 99, outside of 0..10, 2 times")
+    left = f"{path}:4:9: subrange: open in Main.v[1] was 99, outside of 0..10; called from Main {path}:8, 2 times"
+    assert text[0].startswith(left)
     assert text[20].startswith("subrange: 10 more places, 60 violations in all")
     found = json.loads(scanbench("run", str(path), "--scans", "2", "--json").stdout)
     assert (len(found["violations"]), found["violations_dropped"]) == (30, 0)
+    (call,) = found["violations"][0]["calls"]
+    assert (call["instance"], call["line"], found["violations"][0]["calls_cut"]) == ("Main", 8, False)
 
 
 @pytest.mark.parametrize(

@@ -176,3 +176,18 @@ def test_a_report_without_a_place_is_refused_first(program: str, tmp_path: Path)
     ):
         said = scanbench(*command, "--junit", nowhere)
         assert (said.returncode, "cannot be written" in said.stderr) == (2, True), said
+
+
+def test_values_outside_of_subranges_are_told_with_the_variable_of_the_caller_and_the_calls(
+    tmp_path: Path, report: Path
+) -> None:
+    program = tmp_path / "fill.st"
+    program.write_text(
+        "FUNCTION Put : INT\nVAR_INPUT x : INT; END_VAR\nVAR_IN_OUT l : INT (0..10); END_VAR\nl := x;\nEND_FUNCTION\n"
+        "PROGRAM Main\nVAR level : INT (0..10); n : INT; END_VAR\nn := Put(12, level);\nEND_PROGRAM\n"
+    )
+    said = scanbench("run", str(program), "--scans", "3", "--junit", str(report))
+    line = f"subrange: Main.level (here l) in Put was 12, outside of 0..10; called from Main {program}:8, 3 times, scans 0 to 2"
+    assert line in said.stderr
+    (text,) = (str(each.text) for each in etree.parse(report).getroot().iter("system-out"))
+    assert text.endswith(line)

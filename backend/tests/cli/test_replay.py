@@ -2,6 +2,8 @@
 
 import json
 from collections.abc import Callable
+from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from xml.etree.ElementTree import parse
 
@@ -17,6 +19,7 @@ from scanbench.jobs.starting import checked_program
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.recording import checkpoints
 from scanbench.recording import format as runfile
+from scanbench.recording.blocks import About
 from scanbench.recording.recording import Recording
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry
@@ -73,6 +76,27 @@ def test_a_recorded_run_replays_to_the_same_state(program: str, tmp_path: Path) 
     there = run(program, "--scans", "1", "--record", record)
     assert there.exit_code == 2
     assert "is there already" in there.output
+
+
+@pytest.mark.parametrize("marks", [True, False])
+def test_a_run_that_ends_without_its_mark_is_cut_off_unless_its_writer_left_none(
+    program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, marks: bool
+) -> None:
+    of = About.of
+    monkeypatch.setattr(About, "of", staticmethod(lambda program, by: replace(of(program, by), marks=marks)))
+    record = tmp_path / "a.scanrun"
+    assert run(program, "--scans", "500", "--record", str(record)).exit_code == 0
+    with closing(runfile.RunFile.open(record, read_only=True)) as file:
+        assert list(file.scan_blocks())
+        end = file.end
+    assert end < record.stat().st_size
+    whole = call("replay", str(record))
+    assert (whole.exit_code, "is not known" in whole.output) == (0, False)
+    record.write_bytes(record.read_bytes()[:end])
+    cut = call("replay", str(record))
+    assert cut.exit_code == (4 if marks else 0), cut.output
+    assert ("left no mark" in cut.output) != marks
+    assert "Whether more than scan" in cut.output
 
 
 def test_a_recorded_run_has_checkpoints_on_the_way(
@@ -247,13 +271,22 @@ def test_a_length_that_is_wrong_is_no_torn_end(program: str, tmp_path: Path) -> 
     assert call("replay", str(file)).exit_code == 4
 
 
-def test_a_run_ends_when_its_condition_holds(program: str) -> None:
+def test_a_run_ends_when_its_condition_holds(program: str, tmp_path: Path) -> None:
     ran = run(program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json")
     assert ran.exit_code == 0, ran.output
     assert json.loads(ran.stdout)["scans"] == 5
     never = run(program, "--scans", "10", "--until", "Main.n < 0")
     assert never.exit_code == 2
     assert "it was not so that Main.n < 0" in never.output
+    report = tmp_path / "unvalued.xml"
+    never = run(program, "--scans", "10", "--until", "10 / (Main.n - 3) = 99", "--junit", str(report))
+    assert never.exit_code == 2
+    assert "after scan 2 `10 / (Main.n - 3) = 99` has no value (an index is outside, a divisor is 0" in never.output
+    assert "after scan 2 `10 / (Main.n - 3) = 99` has no value" in report.read_text()
+    met = run(program, "--scans", "10", "--until", "10 / (Main.n - 3) = 99 OR Main.n = 5", "--json")
+    assert met.exit_code == 0
+    assert "after scan 2 `10 / (Main.n - 3) = 99 OR Main.n = 5` has no value" in met.stderr
+    assert [json.loads(met.stdout)[each] for each in ("scans", "until_unvalued")] == [5, 2]
     wrong = run(program, "--scans", "10", "--until", "Main.m > 0")
     assert wrong.exit_code == 2
     assert "no member `m`" in wrong.output

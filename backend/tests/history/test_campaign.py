@@ -22,6 +22,7 @@ from scanbench.history.campaign.trials import Trials, run_campaign
 from scanbench.program.program import Program
 from scanbench.recording.programs import cached, on, programs_of
 from scanbench.recording.reader import RunReader
+from scanbench.reports.campaign_report import trial_text
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
@@ -29,7 +30,7 @@ from scanbench.verify.contract import Range
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount, slow
+from tests.amounts import amount, nightly, slow
 from tests.runtime.bench import program
 from tests.verify.verified_runs import record
 
@@ -84,6 +85,7 @@ def test_the_same_seed_tries_the_same(tmp_path: Path) -> None:
     assert planned(program(SOURCE), wanted) != planned(program(SOURCE), CampaignWanted(6, 30, 10, 150, 20))
 
 
+@nightly
 def test_who_noticed_what(tmp_path: Path) -> None:
     wanted = CampaignWanted(seed=2, count=amount(400, 60), first=10, last=150, window=20, alarms=("Main.alarm",))
     found = tried(tmp_path, wanted)
@@ -104,6 +106,19 @@ def test_who_noticed_what(tmp_path: Path) -> None:
     alarmed = [each for each in found.trials if "`Main.alarm` held" in each.program]
     assert all(each.program_scan is not None and each.program_scan >= each.scan for each in alarmed)
     assert alarmed, "a wrong sum is seen by the program itself"
+
+
+def test_an_alarm_without_a_value_noticed_nothing_and_is_told(tmp_path: Path) -> None:
+    alarms = ("10 / Main.spare = 3", "Main.alarm")
+    with reading(tmp_path) as reader:
+        wanted = CampaignWanted(seed=2, count=1, first=10, last=150, window=3, kinds=("stuck",), alarms=alarms)
+        trial = Trials(reader, wanted, bench(tmp_path, program(SOURCE))).trial(1)
+    assert trial.program == ()
+    (told,) = trial.unvalued
+    assert told.startswith(
+        f"after scan {trial.scan} `10 / Main.spare = 3` has no value (an index is outside, a divisor"
+    )
+    assert f"  no value      {told}" in trial_text(trial)
 
 
 def one_of(trials: Trials, wanted: str) -> Trial:
@@ -134,6 +149,7 @@ def test_what_cannot_be_tried_is_refused(tmp_path: Path) -> None:
             tried(tmp_path, wanted)
 
 
+@nightly
 def test_what_stops_the_program_is_found_in_its_scan_and_at_its_statement(tmp_path: Path) -> None:
     """A thousand that end in a run-time error, in the nightly run."""
     stopped, seed = 0, 0

@@ -18,7 +18,7 @@ from scanbench.recording.reader import RunReader
 from scanbench.runtime.command import Command
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount
+from tests.amounts import amount, nightly
 from tests.history.test_campaign import MAKE, bench
 from tests.runtime.bench import program
 from tests.verify.verified_runs import record
@@ -94,12 +94,21 @@ def test_a_value_that_is_none_and_a_run_time_error_are_told(tmp_path: Path) -> N
     assert "many" in none.refused[0]
 
 
+def test_a_condition_without_a_value_is_told(tmp_path: Path) -> None:
+    wanted = WhatIfWanted(20, vary="speed", tried=("3", "4"), window=5, condition="10 / (speed - 3) = 10")
+    found = asked(tmp_path, wanted)
+    assert [(each.met, each.unvalued) for each in found.tries] == [(None, 20), (20, None)]
+    assert "after scan 20 `10 / (speed - 3) = 10` has no value (an index is outside, a divisor is 0" in found.note
+    assert "which counts as not met (in 1 of the runs)" in found.note
+
+
 def test_the_smallest_change_is_found(tmp_path: Path) -> None:
     search = ("start", "speed", "level", "mask")
     given = (value("door", "TRUE"),)
     found = asked(tmp_path, WhatIfWanted(20, given, search=True, candidates=search, condition="motor", window=1))
     assert found.best is not None
     assert found.tries[found.best].values == (*given, value("speed", "37"))
+    assert "of numbers only some are tried" in found.note
     # a BOOL that is enough comes first
     found = asked(
         tmp_path,
@@ -206,6 +215,7 @@ def test_what_cannot_be_tried_is_refused(wanted: WhatIfWanted, message: str, tmp
         asked(tmp_path, wanted)
 
 
+@nightly
 def test_a_planted_threshold_is_found(tmp_path: Path) -> None:
     chance = random.Random(3)
     for number in range(amount(40, 4)):

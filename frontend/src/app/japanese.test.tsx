@@ -80,6 +80,8 @@ function busy(server: FakeServer): void {
           first_scan: 4,
           last_scan: 9,
           text: "範囲外",
+          calls: [{ pou: "Main", instance: "Main", file: "Main.st", line: 7, column: 1 }],
+          cut: true,
         },
       ],
     },

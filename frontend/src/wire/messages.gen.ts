@@ -3603,6 +3603,25 @@ export interface components {
             type: "built";
         };
         /**
+         * Calling
+         * @description A call that leads to a violation.
+         */
+        Calling: {
+            /** Column */
+            column: number;
+            /** File */
+            file: string;
+            /**
+             * Instance
+             * @description path of the instance that calls; empty in a FUNCTION
+             */
+            instance: string;
+            /** Line */
+            line: number;
+            /** Pou */
+            pou: string;
+        };
+        /**
          * Calm
          * @description Withdraws disturbances.
          */
@@ -3736,6 +3755,11 @@ export interface components {
              * @description A run-time error stopped the program.
              */
             trapped: boolean;
+            /**
+             * Unvalued
+             * @description Of each alarm that had no value after a scan, since the disturbance: which, and after which scan first. There it noticed nothing.
+             */
+            unvalued: string[];
             /**
              * Verification
              * @description The first difference that the second execution found, ...
@@ -10540,7 +10564,7 @@ export interface components {
         };
         /**
          * Violation
-         * @description A place and instance at which a value left its subrange.
+         * @description A place and instance at which a value left its subrange, by one path of calls.
          */
         Violation: {
             /**
@@ -10548,8 +10572,18 @@ export interface components {
              * @description the value was farther outside than 65 bits can say
              */
             beyond: boolean;
+            /**
+             * Calls
+             * @description that lead there, the outermost first; none in what a task runs
+             */
+            calls: components["schemas"]["Calling"][];
             /** Column */
             column: number;
+            /**
+             * Cut
+             * @description there are more calls around these: 8 are kept, and of a POU that calls itself the innermost one
+             */
+            cut: boolean;
             /** End Column */
             end_column: number;
             /** End Line */
@@ -10785,6 +10819,11 @@ export interface components {
              * @description The run-time error that stopped the program, and where.
              */
             trapped: string;
+            /**
+             * Unvalued
+             * @description After this scan, before it held, the condition had no value for the first time.
+             */
+            unvalued: number | null;
             /**
              * Values
              * @description None: the run as it was recorded.

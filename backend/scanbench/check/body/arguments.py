@@ -173,7 +173,8 @@ def invoke(body: Body, node: tree.Call, callee: Pou, name: str, this: Place | No
             bound.inputs[member.name.upper()] = open_bound(member, bound.places)
     args = tuple(bound.inputs.get(key, bound.places.get(key)) for key in callee.parameters)
     body.pous.use(body.pou, callee)
-    return Invocation(CallFunction(callee, callee.result, args), bound.before, bound.after)
+    call = CallFunction(callee, callee.result, args, body.calls_at(node.span))
+    return Invocation(call, bound.before, bound.after)
 
 
 def as_value(body: Body, made: Invocation, span: Span) -> Expr:

@@ -13,7 +13,7 @@ from scanbench.check.body.enabling import condition_of, enabling, given_enable, 
 from scanbench.check.body.notes import note_of
 from scanbench.check.body.objects import named_itself, own
 from scanbench.check.body.receivers import Receiver, is_own_property, receiver_of
-from scanbench.check.body.subrange_checks import arriving, explicitly, holding, keeping, noting
+from scanbench.check.body.subrange_checks import arriving, explicitly, keeping, noting
 from scanbench.check.body.targets import declared_target
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
@@ -128,21 +128,22 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
             continue
         target, member = declared_target(body, argument.value)
         lent_counter(body, target, argument.value)
-        note = noting(body, target, member)
-        if note is not None and isinstance(target.type, Subrange):
+        if isinstance(target.type, Subrange):  # checked as a variable of the caller, which it is
+            note = noting(body, target, member)
             taken = body.temporary(base_of(target.type), argument.span)
             outputs.append((output_value(body, Load(own), taken.type, argument), taken))
             value = coerce(body, Load(taken), target.type, argument.span, f"`{shown(argument.value)}`")
             value = arriving(body, value, target, argument.span)
-            after.append(Assign(target, keeping(body, value, note, argument.span), argument.span))
+            kept = value if note is None else keeping(body, value, note, argument.span)
+            after.append(Assign(target, kept, argument.span))
             continue
-        value = output_value(body, Load(own), target.type, argument)
-        outputs.append((holding(body, value, target, argument.span), target))
+        outputs.append((output_value(body, Load(own), target.type, argument), target))
     for each in formals:
         if each.hidden and each.section is Section.INPUT:
             inputs.append((own_place(record, each), open_bound(each, bound)))
     body.pous.use(body.pou, callee)
-    call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
+    site = body.calls_at(node.span)
+    call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span, site)
     return [*before, call, *after]
 
 

@@ -16,7 +16,7 @@ from scanbench.check.dialect_table import IEC
 from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr, Place, Pou
-from scanbench.program.sites import TrapKind
+from scanbench.program.sites import CallSite, TrapKind
 from scanbench.program.types import Member, Record, Type
 from scanbench.syntax import tree
 
@@ -133,6 +133,10 @@ class Body:
     def dialect(self) -> Dialect:
         """What this text may do: the library is written in the strict language."""
         return IEC if self.pou is not None and self.pou.inline else self.declarations.dialect
+
+    def calls_at(self, span: Span) -> int:
+        """The number of a new call site."""
+        return self.report.call(CallSite(span, self.scope.pou))
 
     def trap(self, kind: TrapKind, span: Span, message: str) -> int:
         """The number of a new trap site."""

@@ -21,7 +21,7 @@ from scanbench.program.program import (
     Pou,
     Stmt,
 )
-from scanbench.program.sites import TrapKind
+from scanbench.program.sites import CallSite, TrapKind
 from scanbench.program.types import BOOL, NULL, UDINT, Kind, Member, Record, Section
 
 
@@ -109,7 +109,8 @@ class Dispatcher:
     def _go_on(self, made: Pou, callee: Pou, trap: int) -> Stmt:
         """Calls the method with the same arguments."""
         args = tuple(self._passed(made, callee, key, trap) for key in callee.parameters)
-        call = CallFunction(callee, callee.result, args)
+        site = self.report.call(CallSite(made.span, made.name, passes=True))
+        call = CallFunction(callee, callee.result, args, site)
         if made.returned is None:
             return Evaluate(call, made.span)
         return Assign(place_of(made.returned, Base.FRAME, made.frame, 0), call, made.span)
@@ -141,7 +142,8 @@ class Dispatcher:
         branches = []
         for callee, numbers in found.items():
             itself = Place(callee.instance, Base.SELF, 0)
-            branches.append((_labels(numbers), (CallBlock(itself, callee, (), (), (), span),)))
+            site = self.report.call(CallSite(span, name, passes=True))
+            branches.append((_labels(numbers), (CallBlock(itself, callee, (), (), (), span, site),)))
         number = owner.record.members[TYPE_NUMBER.upper()]
         selector = Load(place_of(number, Base.SELF, owner.record, 0))
         otherwise = self._nothing(made)

@@ -88,6 +88,11 @@ class Planner:
         return [pou for pou in programs if pou not in self._plant]
 
     @property
+    def named(self) -> list[str]:
+        """Names of the resources that have one."""
+        return [each.name for each in self.resources if each.name]
+
+    @property
     def has_programs(self) -> bool:
         """Whether there is any that a task may run."""
         return bool(self._programs())

@@ -81,6 +81,11 @@ class Condition:
     """Whether it holds where it has no value."""
 
 
+def without_value(condition: str, scan: int) -> str:
+    """That it was `unknown` after a scan."""
+    return f"after scan {scan} `{condition}` has no value (an index is outside, a divisor is 0 or a reference refers to nothing)"
+
+
 @dataclass(frozen=True, slots=True)
 class Signal:
     """Something with a value: an instance path, an address, `Main.a + Main.b`. As a `Condition` otherwise, but that a trap

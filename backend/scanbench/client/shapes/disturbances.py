@@ -94,6 +94,8 @@ class CampaignTrial(TypedDict):
     """What somebody had entered in the run, and the PLC did not take this time, but does without the disturbance; and why."""
     why: str
     """missed: why."""
+    unvalued: list[str]
+    """Of each alarm that had no value after a scan, since the disturbance: which, and after which scan first. There it noticed nothing."""
 
 
 class WholeCampaign(TypedDict):

@@ -190,6 +190,8 @@ class WhatIfTry(TypedDict):
     """None: the run as it was recorded."""
     met: int | None
     """After this scan the condition held for the first time."""
+    unvalued: int | None
+    """After this scan, before it held, the condition had no value for the first time."""
     output_scan: int | None
     """After this scan an output (%Q) was different from the recorded run for the first time."""
     shown: list[str]
@@ -220,8 +222,19 @@ class WhatIf(TypedDict):
     """Where a disturbance came in the recorded run: without it, as all tries are, and with no other value."""
 
 
+class Calling(TypedDict):
+    """A call that leads to a violation."""
+
+    pou: str
+    instance: str
+    """path of the instance that calls; empty in a FUNCTION."""
+    file: str
+    line: int
+    column: int
+
+
 class Violation(TypedDict):
-    """A place and instance at which a value left its subrange."""
+    """A place and instance at which a value left its subrange, by one path of calls."""
 
     file: str
     line: int
@@ -243,6 +256,10 @@ class Violation(TypedDict):
     times: int
     first_scan: int
     last_scan: int
+    calls: list[Calling]
+    """that lead there, the outermost first; none in what a task runs."""
+    cut: bool
+    """there are more calls around these: 8 are kept, and of a POU that calls itself the innermost one."""
 
 
 class Diagnostics(TypedDict):

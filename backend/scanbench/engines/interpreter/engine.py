@@ -34,7 +34,7 @@ class ReferenceEngine(Engine):
         self.memory = memory
         self.observer = observer
         self.state_size = program.layout.state_size
-        self.record = recorder(memory, program.layout.violations)
+        self.record = recorder(memory, program)
         self._recursive = any(pou.recursive for pou in program.pous)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
@@ -58,12 +58,16 @@ class ReferenceEngine(Engine):
 
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""
-        make = Statements(self, replace(instance.pou, first_trap=0, first_check=0))
+        make = Statements(self, replace(instance.pou, first_trap=0, first_check=0, called_at=0))
         body = self._bodies[instance.pou]
         before, after = (self._connected(instance, make.block(each)) for each in (instance.before, instance.after))
 
+        memory, called = self.memory, instance.pou.called_at
+
         def run() -> None:
             before(0)
+            if called:
+                memory[called : called + 8] = bytes(8)
             body(instance.offset)
             after(0)
 

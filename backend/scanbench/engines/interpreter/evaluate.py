@@ -45,7 +45,7 @@ class Evaluator:
         self.program = program
         self.memory = memory
         self.state_size = program.layout.state_size
-        self.record = recorder(memory, program.layout.violations)
+        self.record = recorder(memory, program)
         self._bodies: dict[Pou, Body] = {}
         self._copy: Evaluator | None = None
 
@@ -140,7 +140,8 @@ class Evaluator:
         return self._copy
 
     def _statements(self, pou: Pou | None) -> Statements:
-        return Statements(self, replace(pou or _NOBODY, first_trap=len(self.program.traps), first_check=0))
+        traps, calls = len(self.program.traps), len(self.program.calls)
+        return Statements(self, replace(pou or _NOBODY, first_trap=traps, first_check=0, first_call=calls))
 
     def _closure(self, pou: Pou | None, expr: Expr) -> Callable[[int], Value]:
         return self._statements(pou).evaluate(expr)

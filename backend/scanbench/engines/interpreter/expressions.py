@@ -192,24 +192,40 @@ class Expressions(ABC):
         return violates
 
     def _recorder(self, node: Limit | Violates) -> Callable[[int, int], None]:
-        record, caller, site = self.bodies.record, self.caller, self.pou.first_check + node.site
-        this, type = self.pou.this, node.value.type
+        record, site, called = self.bodies.record, self.pou.first_check + node.site, self.pou.called_at
+        running, type = self._running(), node.value.type
         wide, signed = type.size == WIDE.size, type.kind is Kind.INT  # type: ignore[union-attr]
         bound = None if node.bound is None else self._unseen.reference(node.bound)
         copies = self.bodies.program.layout.copies
-        memory, at = self.memory, self.pou.frame_offset + (0 if this is None else this.offset)
+        memory = self.memory
 
         def record_it(instance: int, value: int) -> None:
             value, more = in_65_bits(value, signed) if wide else (value, 0)
             if bound is not None:
                 more |= copies.source(memory, bound(instance) & Layout.VIOLATION_BOUND)
-            if this is not None:  # its slot holds the instance of the method
-                instance = int.from_bytes(memory[at : at + 4], "little")
-            elif caller is not None:
-                instance = caller[0]
-            record(site, instance, value, more)
+            record(site, running(instance), value, more, called)
 
         return record_it
+
+    def _running(self) -> Callable[[int], int]:
+        """Where the instance begins that runs, from the one that a closure is called with; 0 in a FUNCTION."""
+        memory, this, caller = self.memory, self.pou.this, self.caller
+        if this is not None:  # its slot holds the instance of the method
+            at = self.pou.frame_offset + this.offset
+            return lambda instance: int.from_bytes(memory[at : at + 4], "little")
+        return (lambda instance: instance) if caller is None else (lambda instance: caller[0])
+
+    def noting(self, callee: Pou, site: int) -> Callable[[int], None] | None:
+        """Writes down who calls, where that is wanted."""
+        memory, at, running = self.memory, callee.called_at, self._running()
+        number = self.pou.first_call + site if site else 0
+        if not at:
+            return None
+
+        def note(instance: int) -> None:
+            memory[at : at + 8] = (number | running(instance) << 32 if number else 0).to_bytes(8, "little")
+
+        return note
 
     # ---- running code ------------------------------------------------------------------------------------------
 
@@ -244,35 +260,57 @@ class Expressions(ABC):
                 given.append(self.evaluate(arg))
                 fill.append((putter(self.memory, member.type), at))
 
-        begin, end = callee.frame_offset, callee.frame_offset + callee.frame.size
-        memory = self.memory if callee.recursive else None
+        keep, note = self._keeper(callee), self.noting(callee, node.site)
 
         def run(instance: int) -> Value:
             arguments = [value(instance) for value in given]
-            kept = b"" if memory is None else bytes(memory[begin:end])
+            restore = keep()
+            if note is not None:
+                note(instance)
             for (put, at), argument in zip(fill, arguments, strict=True):
                 put(at, argument)
             try:
                 body(0)
             except Trapped:  # what is in the frame may be in use by who catches that
-                if memory is not None:
-                    memory[begin:end] = kept
+                restore()
                 raise
             answer = result(0)
             returned = [read(0) for read, _ in outputs]
-            if memory is not None:
-                memory[begin:end] = kept
+            restore()
             for (_, write), value in zip(outputs, returned, strict=True):
                 write(instance, value)
             return answer
 
         return run
 
+    def _keeper(self, callee: Pou) -> Callable[[], Callable[[], None]]:
+        """Keeps what a POU has that may run already, and gives what restores it."""
+        if not callee.recursive:
+            return lambda: _nothing
+        memory, begin, end = self.memory, callee.frame_offset, callee.frame_offset + callee.frame.size
+        called, after = callee.called_at, callee.called_at + 8
+
+        def keep() -> Callable[[], None]:
+            frame, caller = bytes(memory[begin:end]), bytes(memory[called:after])
+
+            def restore() -> None:
+                memory[begin:end] = frame
+                if called:
+                    memory[called:after] = caller
+
+            return restore
+
+        return keep
+
     def _result(self, callee: Pou, frame: Places) -> Read:
         member = callee.returned
         if member is None:
             return lambda instance: 0
         return frame.read(Place(member.type, Base.FRAME, member.offset))
+
+
+def _nothing() -> None:
+    """Nothing was kept."""
 
 
 SLOT = Elementary("slot", Kind.REF, 8)

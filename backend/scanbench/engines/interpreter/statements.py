@@ -17,7 +17,6 @@ from scanbench.program.program import (
     Blocks,
     CallBlock,
     Case,
-    Const,
     Continue,
     Evaluate,
     Exit,
@@ -194,7 +193,7 @@ class Statements(Expressions):
 
     def _call_block(self, node: CallBlock) -> Body:
         where, body = self.places.address(node.instance, node.pou.instance.size), self.bodies.body(node.pou)
-        caller = [0]
+        note, caller = self.noting(node.pou, node.site), [0]
         inner = Statements(self.bodies, self.pou, caller)
         bind = putter(self.memory, SLOT)
         inputs = [(self.evaluate(value), inner.places.write(place)) for place, value in node.inputs]
@@ -208,6 +207,8 @@ class Statements(Expressions):
             for slot, reference in slots:
                 found = reference(instance)
                 bind(slot(callee), found)
+            if note is not None:
+                note(instance)
             body(callee)
             caller[0] = instance
             for read, write in outputs:
@@ -299,27 +300,25 @@ class Statements(Expressions):
         return loop
 
     def _for(self, node: For) -> Body:
-        if node.follows:
-            return self._following(node)
         start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
         store, spend = self.places.write(node.variable), self._spender(node.trap)
         body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
+        left = self.places.read(node.variable) if node.follows else None
         type = node.variable.type
         assert isinstance(type, Elementary)
         wrap, each_round, (low, high) = arithmetic.wrapper(type), node.exits, node.bounds or bounds(type)
 
         def loop(instance: int) -> int:
-            first, last, by = start(instance), end(instance), step(instance)
-            assert isinstance(first, int)
+            counter, last, by = start(instance), end(instance), step(instance)
+            assert isinstance(counter, int)
             assert isinstance(last, int)
             assert isinstance(by, int)
-            rounds = 0 if by == 0 else max((last - first) // by + 1, 0)
+            rounds = 0 if by == 0 else max((last - counter) // by + 1, 0)
             if not each_round:
                 spend(rounds)
             if rounds == 0:
                 none(instance)
-            counter = first
-            for _ in range(rounds):
+            while by != 0 and (counter <= last if by > 0 else counter >= last):
                 if each_round:
                     spend(1)
                 store(instance, wrap(counter))
@@ -328,41 +327,10 @@ class Statements(Expressions):
                     return GO_ON
                 if how >= RETURN:
                     return how
-                counter += by
+                now = counter if left is None else left(instance)
+                assert isinstance(now, int)
+                counter = now + by
             store(instance, min(max(wrap(counter), low), high))
-            return GO_ON
-
-        return loop
-
-    def _following(self, node: For) -> Body:
-        """A loop that goes on from what its body leaves in the counter."""
-        start, end, read = self.evaluate(node.start), self.evaluate(node.end), self.places.read(node.variable)
-        store, spend = self.places.write(node.variable), self._spender(node.trap)
-        body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
-        type = node.variable.type
-        assert isinstance(type, Elementary)
-        assert isinstance(node.step, Const)
-        wrap, by = arithmetic.wrapper(type), node.step.value
-        assert isinstance(by, int)
-
-        def loop(instance: int) -> int:
-            counter, last = start(instance), end(instance)
-            assert isinstance(counter, int)
-            assert isinstance(last, int)
-            if counter > last if by > 0 else counter < last:
-                none(instance)
-            while counter <= last if by > 0 else counter >= last:
-                spend(1)
-                store(instance, wrap(counter))
-                how = body(instance)
-                if how == EXIT:
-                    return GO_ON
-                if how >= RETURN:
-                    return how
-                left = read(instance)
-                assert isinstance(left, int)
-                counter = left + by
-            store(instance, wrap(counter))
             return GO_ON
 
         return loop

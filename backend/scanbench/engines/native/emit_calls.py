@@ -1,7 +1,10 @@
 """Calls of functions and of function block instances."""
 
+from dataclasses import dataclass
+
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
+from scanbench.engines.native.emit_checks import LIST_TAG, note_call
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_memory import move
 from scanbench.engines.native.emit_places import address, reference
@@ -80,37 +83,61 @@ def _call(body: Body, call: CallFunction) -> Held | None:
             given.append(f"ptr {room}")
     body.unit.flavour.calls(body, call.pou)
     kept = _kept(body, call.pou)
+    note_call(body, call.pou, call.site)
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)}){body.swallow(call.pou)}")
     _pass_on(body, status, call.pou, kept)
     # all is read before the first is stored: finding out where may call this function again
-    disturbed = bool(kept) or any(walk.address_disturbs(place) for _, _, place in outputs)
+    disturbed = kept is not None or any(walk.address_disturbs(place) for _, _, place in outputs)
     values = [(read(body, pointer, each.member.type, disturbed), place) for each, pointer, place in outputs]
     result = read(body, room, signature.result.member.type, disturbed) if signature.result is not None else None
-    if kept:
-        move(body, body.text.address(body.image, call.pou.frame_offset), kept, call.pou.frame.size)
+    if kept is not None:
+        kept.back(body, call.pou)
     for held, place in values:
         put(body, place, held)
     return result
 
 
-def _kept(body: Body, callee: Pou) -> str:
-    """A copy of the frame of what may run already; empty for what cannot."""
-    if not callee.recursive or not callee.frame.size:
-        return ""
-    room = body.text.room(body.unit.symbol(callee), callee.frame.size)  # in use during one call at a time
-    return move(body, room, body.text.address(body.image, callee.frame_offset), callee.frame.size)
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """What a POU had that may run already; empty for what it has not."""
+
+    frame: str
+    caller: str
+
+    def back(self, body: Body, callee: Pou) -> None:
+        """Puts it back."""
+        text = body.text
+        if self.frame:
+            move(body, text.address(body.image, callee.frame_offset), self.frame, callee.frame.size)
+        if self.caller:
+            where = text.address(body.image, callee.called_at)
+            text.do(f"store i64 {self.caller}, ptr {where}, align 8{body.module.tag(LIST_TAG)}")
 
 
-def _pass_on(body: Body, status: str, callee: Pou, kept: str) -> None:
+def _kept(body: Body, callee: Pou) -> Kept | None:
+    """A copy of the frame of what may run already, and who called that."""
+    if not callee.recursive or not (callee.frame.size or callee.called_at):
+        return None
+    text, frame, caller = body.text, "", ""
+    if callee.frame.size:
+        room = text.room(body.unit.symbol(callee), callee.frame.size)  # in use during one call at a time
+        frame = move(body, room, text.address(body.image, callee.frame_offset), callee.frame.size)
+    if callee.called_at:
+        where = text.address(body.image, callee.called_at)
+        caller = text.op(f"load i64, ptr {where}, align 8{body.module.tag(LIST_TAG)}")
+    return Kept(frame, caller)
+
+
+def _pass_on(body: Body, status: str, callee: Pou, kept: Kept | None) -> None:
     """Passes on the trap of a callee; what is in its frame may be in use by who catches that."""
-    if not kept:
+    if kept is None:
         body.text.check_status(status)
         return
     text = body.text
     failed, on = text.name("failed"), text.name("on")
     text.choose(text.op(f"icmp ne i32 {status}, 0"), failed, on, UNLIKELY)
     text.begin(failed)
-    move(body, text.address(body.image, callee.frame_offset), kept, callee.frame.size)
+    kept.back(body, callee)
     text.go(text.fail(status))
     text.begin(on)
 
@@ -166,6 +193,7 @@ def block(body: Body, call: CallBlock) -> None:
             where = address(body, slot)
         body.text.do(f"store i64 {number}, ptr {where.pointer}, align 1{where.tag}")
     body.unit.flavour.calls(body, call.pou)
+    note_call(body, call.pou, call.site)
     status = body.text.op(
         f"call i32 {body.unit.symbol(call.pou)}(ptr {body.image}, i64 {offset}){body.swallow(call.pou)}"
     )

@@ -9,7 +9,7 @@ from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
 from scanbench.program.copies import BYTE_OFFSET, DEEPEST
 from scanbench.program.layout import Layout
-from scanbench.program.program import Base, Limit, Place, Violates
+from scanbench.program.program import Base, Limit, Place, Pou, Violates
 from scanbench.program.types import ULINT, Elementary
 
 LIST = "@violations"
@@ -21,12 +21,50 @@ COPIES = "@copies"
 LIST_TAG = "#violations"
 """Of the call that records: no variable of the program is touched by it, but those in the header, which have no tag."""
 
+PATHS = "@paths"
+"""The name of the number that holds the offset of the paths in the image."""
+
+CALLERS = "@callers"
+"""Of each call, by its number, where it is noted who called the POU that has it: `calling.callers`."""
+
 RECORD = """\
+declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)
+declare void @llvm.memmove.p0.p0.i64(ptr, ptr, i64, i1)
 declare i32 @llvm.uadd.sat.i32(i32, i32)
 declare i32 @llvm.umin.i32(i32, i32)
-define internal void @violation(ptr nonnull %img, i64 %list, i32 %site, i64 %instance, i64 %value, i64 %more) noinline cold #0 {{
-; finds the entry of the site, instance and variable, or appends one; all counters saturate
+define internal void @violation(ptr nonnull %img, i64 %list, i32 %site, i64 %instance, i64 %value, i64 %more, i64 %called) noinline cold #0 {{
+; finds the entry of the site, instance, variable and path, or appends one; all counters saturate
 entry:
+  %path = alloca [{levels} x i64], align 8
+  call void @llvm.memset.p0.i64(ptr %path, i8 0, i64 {pathbytes}, i1 false)
+  br label %walk
+walk:
+  %level = phi i64 [ 0, %entry ], [ %deeper, %above ]
+  %slot = phi i64 [ %called, %entry ], [ %upper, %above ]
+  %deeper = add i64 %level, 1
+  %known = icmp ne i64 %slot, 0
+  %room = icmp ult i64 %level, {levels}
+  %noted = and i1 %known, %room
+  br i1 %noted, label %caller, label %walked
+caller:
+  %slotat = getelementptr inbounds i8, ptr %img, i64 %slot
+  %call = load i64, ptr %slotat, align 8
+  %callnumber = and i64 %call, 4294967295
+  %bysystem = icmp eq i64 %callnumber, 0
+  br i1 %bysystem, label %walked, label %above
+above:
+  %levelat = getelementptr inbounds i64, ptr %path, i64 %level
+  store i64 %call, ptr %levelat, align 8
+  %upperat = getelementptr i32, ptr {callers}, i64 %callnumber
+  %upper32 = load i32, ptr %upperat, align 4
+  %upper = zext i32 %upper32 to i64
+  br label %walk
+walked:
+  %paths = load i64, ptr {paths}, align 8
+  %haspaths = icmp ne i64 %paths, 0
+  %pathsinimage = getelementptr inbounds i8, ptr %img, i64 %paths
+  %pathsat = select i1 %haspaths, ptr %pathsinimage, ptr %path
+  %pathstep = select i1 %haspaths, i64 {pathbytes}, i64 0
   %errorat = getelementptr inbounds i8, ptr %img, i64 {error}
   store i8 1, ptr %errorat, align 1
   %countat = getelementptr inbounds i8, ptr %img, i64 {count}
@@ -41,8 +79,10 @@ entry:
   %n = zext i32 %within to i64
   br label %next
 next:
-  %i = phi i64 [ 0, %entry ], [ %after, %other ]
+  %i = phi i64 [ 0, %walked ], [ %after, %other ]
   %start = mul i64 %i, {bytes}
+  %pathstart = mul i64 %i, %pathstep
+  %itspath = getelementptr inbounds i8, ptr %pathsat, i64 %pathstart
   %payload = add i64 %start, 8
   %at = getelementptr inbounds i8, ptr %head, i64 %payload
   %timesat = getelementptr inbounds i8, ptr %at, i64 4
@@ -61,7 +101,21 @@ look:
   %samebound = icmp eq i64 %bound, 0
   %sameplace = and i1 %sameinstance, %samebound
   %same = and i1 %samesite, %sameplace
-  br i1 %same, label %again, label %other
+  br i1 %same, label %compare, label %other
+compare:
+  %j = phi i64 [ 0, %look ], [ %j1, %equal ]
+  %all = icmp uge i64 %j, {levels}
+  br i1 %all, label %again, label %pair
+pair:
+  %itscallat = getelementptr inbounds i64, ptr %itspath, i64 %j
+  %itscall = load i64, ptr %itscallat, align 8
+  %owncallat = getelementptr inbounds i64, ptr %path, i64 %j
+  %owncall = load i64, ptr %owncallat, align 8
+  %samecall = icmp eq i64 %itscall, %owncall
+  %j1 = add i64 %j, 1
+  br i1 %samecall, label %equal, label %other
+equal:
+  br label %compare
 other:
   %after = add i64 %i, 1
   br label %next
@@ -83,6 +137,7 @@ append:
   store i64 %instance, ptr %instanceat, align 8
   %firstat = getelementptr inbounds i8, ptr %at, i64 24
   store i64 %scan, ptr %firstat, align 8
+  call void @llvm.memmove.p0.p0.i64(ptr %itspath, ptr %path, i64 {pathbytes}, i1 false)
   br label %again
 again:
   %times = load i32, ptr %timesat, align 4
@@ -230,6 +285,10 @@ def _record(body: Body, value: Value, type: Elementary, check: Limit | Violates)
         limit=Layout.VIOLATION_LIMIT,
         bytes=Layout.VIOLATION_BYTES,
         bound=Layout.VIOLATION_BOUND,
+        levels=Layout.PATH_LIMIT,
+        pathbytes=8 * Layout.PATH_LIMIT,
+        paths=PATHS,
+        callers=CALLERS,
     )
     body.module.declare("@violation", record)
     number = str(check.site)
@@ -243,7 +302,7 @@ def _record(body: Body, value: Value, type: Elementary, check: Limit | Violates)
         first = body.text.op(f"and i64 {reference(body, check.bound)}, {Layout.VIOLATION_BOUND}")
         actual = f"call i64 @violation.actual(ptr {body.image}, i64 {first})"
         more = body.text.op(f"or i64 {body.text.op(actual)}, {more}")
-    given = f"i64 {violations}, i32 {number}, i64 {_instance(body)}, i64 {wide}, i64 {more}"
+    given = f"i64 {violations}, i32 {number}, i64 {running(body)}, i64 {wide}, i64 {more}, i64 {body.pou.called_at}"
     body.text.do(f"call void @violation(ptr {body.image}, {given}){body.module.tag(LIST_TAG)}")
 
 
@@ -262,7 +321,21 @@ def _in_64_bits(body: Body, value: Value, type: Elementary) -> tuple[str, str]:
     return text.op(f"trunc {name} {near} to i64"), wide
 
 
-def _instance(body: Body) -> str:
+def note_call(body: Body, callee: Pou, site: int) -> None:
+    """Writes down who calls, where that is wanted."""
+    if not callee.called_at:
+        return
+    text, call = body.text, "0"
+    if site and body.unit.has(body.pou):
+        first = text.op(f"load i32, ptr {body.unit.symbol(body.pou).replace('p.', 'call.', 1)}, align 4")
+        call = text.op(f"zext i32 {text.op(f'add i32 {first}, {site}')} to i64")
+        if (instance := running(body)) != "0":
+            call = text.op(f"or i64 {call}, {text.op(f'shl i64 {instance}, 32')}")
+    where = text.address(body.image, callee.called_at)
+    text.do(f"store i64 {call}, ptr {where}, align 8{body.module.tag(LIST_TAG)}")
+
+
+def running(body: Body) -> str:
     """Where the instance begins whose body or method this is; 0 in a FUNCTION."""
     this = body.pou.this
     if this is None:

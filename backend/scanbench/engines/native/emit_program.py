@@ -11,10 +11,11 @@ from collections.abc import Iterable
 from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
-from scanbench.engines.native.emit_checks import COPIES, LIST
+from scanbench.engines.native.emit_checks import CALLERS, COPIES, LIST, PATHS
 from scanbench.engines.native.emit_try import CODES
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature
+from scanbench.program.calling import callers
 from scanbench.program.program import Pou, Program
 from scanbench.program.sites import EXCEPTIONS
 
@@ -95,12 +96,15 @@ class Emitter:
             here.update(copies)
         for each in [*unit.mentioned]:
             if each in here:
-                for number in (first_trap(self.names[each]), first_check(self.names[each])):
+                name = self.names[each]
+                for number in (first_trap(name), first_check(name), first_call(name)):
                     unit.module.add(f"{number} = external constant i32")
             else:
                 unit.module.add(f"declare {emit_pou.head(unit, each, self._size)}")
         unit.module.add(f"{LIST} = external constant i64")
         unit.module.add(f"{COPIES} = external constant i64")
+        unit.module.add(f"{PATHS} = external constant i64")
+        unit.module.add(f"{CALLERS} = external constant i32")
         return unit
 
     def _add_numbers(self, unit: Unit, linkage: str) -> None:
@@ -108,8 +112,14 @@ class Emitter:
             name = self.names[pou]
             unit.module.add(f"{first_trap(name)} = {linkage}constant i32 {pou.first_trap}")
             unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
+            unit.module.add(f"{first_call(name)} = {linkage}constant i32 {pou.first_call}")
         unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
         unit.module.add(f"{COPIES} = {linkage}constant {_copies(self._program)}, align 8")
+        unit.module.add(f"{PATHS} = {linkage}constant i64 {self._program.layout.paths}")
+        noted = [0, *callers(self._program)]
+        unit.module.add(
+            f"{CALLERS} = {linkage}constant [{len(noted)} x i32] [{', '.join(f'i32 {each}' for each in noted)}]"
+        )
         unit.module.define(CODES, f"{linkage}constant {_codes(self._program)}, align 2")
         self._flavour.declare(unit)
 
@@ -146,6 +156,11 @@ def names(pous: Iterable[Pou]) -> dict[Pou, str]:
 def first_trap(name: str) -> str:
     """The number that the numbers of a POU's traps count from."""
     return f'@"trap.{name}"'
+
+
+def first_call(name: str) -> str:
+    """The number that the numbers of a POU's calls count from."""
+    return f'@"call.{name}"'
 
 
 def first_check(name: str) -> str:

@@ -2,6 +2,7 @@
 
 from scanbench.engines.native import emit_expressions, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_checks import note_call
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
 from scanbench.engines.native.emit_loop import FORCES_NAME
 from scanbench.engines.native.emit_memory import store
@@ -114,6 +115,7 @@ def _is_due(body: Body, task: Task, number: str) -> str:
 
 def _program(body: Body, instance: ProgramInstance) -> None:
     _joined(body, instance, instance.before)
+    note_call(body, instance.pou, 0)
     call = f"call i32 {body.unit.symbol(instance.pou)}(ptr %img, i64 {instance.offset})"
     body.text.check_status(body.text.op(call))
     _joined(body, instance, instance.after)

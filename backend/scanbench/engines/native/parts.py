@@ -112,7 +112,16 @@ class Parts:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
             faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, body.key, pou.recursive)
+            depends = (
+                emitter.names[pou],
+                body.same,
+                pou.frame_offset,
+                pou.called_at,
+                sizes,
+                called,
+                body.key,
+                pou.recursive,
+            )
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)
@@ -136,7 +145,7 @@ def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: obje
     how = body.signature
     passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
     inside = (body.same, called, body.key) if body.shared else None
-    return name, pou.frame_offset, passed, writes, inside, pou.recursive and pou.frame.size
+    return name, pou.frame_offset, pou.called_at, passed, writes, inside, pou.recursive and pou.frame.size
 
 
 def _fitting(parts: list[Part]) -> list[Part]:

@@ -74,6 +74,8 @@ class Trial(Public):
     """What somebody had entered in the run, and the PLC did not take this time, but does without the disturbance; and why."""
     why: str = ""
     """missed: why."""
+    unvalued: tuple[str, ...] = ()
+    """Of each alarm that had no value after a scan, since the disturbance: which, and after which scan first. There it noticed nothing."""
 
     @property
     def silent(self) -> bool:

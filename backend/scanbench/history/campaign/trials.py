@@ -6,7 +6,7 @@ from hashlib import blake2b
 from itertools import chain
 from pathlib import Path
 
-from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
+from scanbench.check.typed.condition import BadCondition, Condition, compile_condition, without_value
 from scanbench.faults.disturb.definition import Disturbance, describe
 from scanbench.faults.disturb.disturb import DISTURBED, Disturb, told
 from scanbench.faults.disturb.fire import Firing
@@ -34,7 +34,7 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal, Swapped
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
-from scanbench.symbols.violations import Violation, read_violations
+from scanbench.symbols.violations import Key, Violation, read_violations
 from scanbench.verify.contract import Mismatch, Range
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.verifier import Verifier
@@ -54,10 +54,11 @@ class _Seen:
     """A digest after each scan, ..."""
     states: dict[int, tuple[bytes, bytes]] = field(default_factory=dict)
     """... and of all that is kept but the force table and the inputs; and the inputs themselves."""
-    alarms: dict[int, tuple[bool, ...]] = field(default_factory=dict)
+    alarms: dict[int, tuple[bool | None, ...]] = field(default_factory=dict)
+    """Whether each of them holds; None where it has no value."""
     errors: list[tuple[int, str]] = field(default_factory=list)
     """What the PLC or its program raised, and before which scan."""
-    violations: dict[tuple[int, str, str], Violation] = field(default_factory=dict)
+    violations: dict[Key, Violation] = field(default_factory=dict)
     refused: dict[int, str] = field(default_factory=dict)
     """Of what is entered: the places in the list of it that were refused, and why."""
     held: dict[int, int] = field(default_factory=dict)
@@ -122,7 +123,7 @@ class Trials:
             verification="" if difference is None else difference.message, verified_scan=at,
             place=None if difference is None else difference.place, program=noticed, program_scan=program_scan,
             output_scan=output, differs=differs, trapped=seen.trap is not None and self._right.trap != seen.trap,
-            refused=refused,
+            refused=refused, unvalued=tuple(self._unvalued(seen, wanted.scan)),
         )  # fmt: skip
 
     @property
@@ -177,7 +178,7 @@ class Trials:
         if before is not None and before[1] == inputs:
             inputs = before[1]  # they hardly ever change, and are kept once
         seen.states[scan] = blake2b(kept, digest_size=8).digest(), inputs
-        seen.alarms[scan] = tuple(resource.engine.holds(each) for each in self._alarms)
+        seen.alarms[scan] = tuple(map(resource.engine.truth, self._alarms))
 
     def _take(self, timeline: Timeline, seen: _Seen, known: int) -> None:
         """What is known at the end."""
@@ -218,7 +219,7 @@ class Trials:
         found += [(scan, text) for scan, text in seen.errors if scan >= first and text not in usual]
         for place, each in seen.violations.items():
             if each.first_scan >= first and place not in right.violations:
-                found.append((each.first_scan, str(each)))
+                found.append((each.first_scan, each.told))
         for index, text in enumerate(self._wanted.alarms):
             scans = (scan for scan, held in sorted(seen.alarms.items()) if held[index])
             at = next((scan for scan in scans if not self._usual(scan, index)), None)
@@ -229,7 +230,16 @@ class Trials:
 
     def _usual(self, scan: int, index: int) -> bool:
         held = self._right.alarms.get(scan)
-        return held is not None and held[index]
+        return held is not None and bool(held[index])
+
+    def _unvalued(self, seen: _Seen, first: int) -> Iterator[str]:
+        """Of each alarm that had no value, the first scan after which that was so."""
+        for index, text in enumerate(self._wanted.alarms):
+            at = next(
+                (scan for scan, held in sorted(seen.alarms.items()) if scan >= first and held[index] is None), None
+            )
+            if at is not None:
+                yield without_value(text, at)
 
     def _fired(self, wanted: Disturbance, number: int) -> tuple[list[int], str]:
         """The scans in which it changed or held anything; else why it did not come about."""

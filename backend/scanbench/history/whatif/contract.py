@@ -66,6 +66,8 @@ class Try(Public):
     """None: the run as it was recorded."""
     met: int | None = None
     """After this scan the condition held for the first time."""
+    unvalued: int | None = None
+    """After this scan, before it held, the condition had no value for the first time."""
     output_scan: int | None = None
     """After this scan an output (%Q) was different from the recorded run for the first time."""
     shown: tuple[str, ...] = ()

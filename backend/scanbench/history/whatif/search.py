@@ -28,6 +28,11 @@ class Candidate:
     type: Type
     data: bytes
 
+    @property
+    def counts(self) -> bool:
+        """Whether it is a number, of which not every value is tried."""
+        return _number(self) is not None
+
 
 Change = tuple[tuple[str, str], ...]
 """Paths, and values as typed."""

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
+from scanbench.check.typed.condition import BadCondition, Condition, compile_condition, without_value
 from scanbench.faults.disturb.disturb import DISTURBED, told
 from scanbench.history.bench import Bench, outputs_of
 from scanbench.history.entered import Entering, begun_with, given_after
@@ -112,6 +112,12 @@ class _Tries:
         if inside is not None:
             name, author = type(inside.command).__name__, inside.command.author
             yield f"{name} by {author} was entered inside of scan {inside.scan}, and is entered before it here"
+        without = [
+            each for each in (self._recorded, self._undisturbed, *self._tries) if each and each.unvalued is not None
+        ]
+        if without:
+            told = without_value(self._wanted.condition, min(each.unvalued or 0 for each in without))
+            yield f"{told}, which counts as not met (in {len(without)} of the runs)"
         if self._end > self._reader.over:
             yield f"the run has scans up to {self._reader.over - 1}: from there on the first row goes on like the tries"
 
@@ -140,6 +146,10 @@ class _Tries:
             notes.append(f"it ended after {search.asked} tries: there may be a smaller change")
         elif not found:
             notes.append("no change of one of them, or of two that are BOOL, was found with which it holds")
+        if any(each.counts for each in candidates):
+            notes.append(
+                "of numbers only some are tried, at distances that double and then between two of them: another one may do"
+            )
         refused = [each.refused[0] for each in self._tries if each.refused and not each.ran]
         if refused and len(refused) == len(self._tries):
             return None, f"nothing could be tried: {refused[0]}"
@@ -188,6 +198,7 @@ class _Tries:
     ) -> Try:
         resource = timeline.resource
         met: int | None = None
+        unvalued: int | None = None
         differs: int | None = None
         compared = 0
         while timeline.live_scan < self._end and not resource.header.halted_by_trap:
@@ -204,11 +215,13 @@ class _Tries:
             compared += known is not None
             if differs is None and known is not None and outputs[scan] != known:
                 differs = scan
-            if met is None and self._condition is not None and resource.engine.holds(self._condition):
-                met = scan
+            if met is None and self._condition is not None:
+                truth = resource.engine.truth(self._condition)
+                met = scan if truth else None
+                unvalued = scan if truth is None and unvalued is None else unvalued
         trap = resource.trap
         return Try(
-            values, met, differs, tuple(worth_text(resource.program, resource.memory, each) for each in self._watch),
+            values, met, unvalued, differs, tuple(worth_text(resource.program, resource.memory, each) for each in self._watch),
             "" if trap is None else f"scan {trap.scan}, {trap.file}:{trap.line}: {trap.message}",
             tuple(entering.refused.values()), timeline.live_scan - self._wanted.scan, compared,
         )  # fmt: skip

@@ -6,9 +6,9 @@ from fastapi.responses import PlainTextResponse
 from scanbench.taps.lcov import lcov
 from scanbench.web import translate, translate_debug
 from scanbench.web.auth import user_of
-from scanbench.web.messages import Diagnostics
 from scanbench.web.messages_base import Id
 from scanbench.web.messages_debug import BreakpointInfo, ChangeCoverage
+from scanbench.web.messages_diagnostics import Diagnostics
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result

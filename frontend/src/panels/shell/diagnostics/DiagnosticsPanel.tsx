@@ -1,3 +1,4 @@
+import { Fragment } from "react";
 import { grouped } from "../../../logic/format/numbers";
 import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
@@ -61,14 +62,34 @@ function List({ violations }: { violations: readonly Violation[] }) {
         <span>{t("diagnostics.where")}</span>
       </div>
       <ul aria-label={t("diagnostics.list")}>
-        {violations.map((violation) => (
-          <li
-            key={`${violation.file}:${violation.line}:${violation.column}:${violation.variable}:${violation.instance}:${violation.target}`}
-          >
+        {violations.map((violation, number) => (
+          // entries keep their place until all are cleared
+          // biome-ignore lint/suspicious/noArrayIndexKey: two paths of calls may look the same where they are cut
+          <li key={number}>
             <Row violation={violation} />
+            {violation.calls.length > 0 && <Calls violation={violation} />}
           </li>
         ))}
       </ul>
+    </div>
+  );
+}
+
+/** Who called, the outermost first. A click goes to the call. */
+function Calls({ violation: { calls, cut } }: { violation: Violation }) {
+  return (
+    <div className="calls faint">
+      <span>{t("diagnostics.calledfrom")}</span>
+      {cut && <span title={t("diagnostics.cut")}>…</span>}
+      {calls.map(({ pou, instance, file, line, column }, level) => (
+        // biome-ignore lint/suspicious/noArrayIndexKey: a path never changes
+        <Fragment key={level}>
+          {(cut || level > 0) && <span aria-hidden="true">›</span>}
+          <button type="button" className="link mono" onClick={() => openFile(file, line, column)}>
+            {`${instance || pou} ${file}:${line}`}
+          </button>
+        </Fragment>
+      ))}
     </div>
   );
 }

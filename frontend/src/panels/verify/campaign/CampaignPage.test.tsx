@@ -21,6 +21,7 @@ const TRIAL: CampaignTrial = {
   differs: true,
   trapped: false,
   refused: [],
+  unvalued: [],
   why: "",
 };
 const TRIALS: CampaignTrial[] = [

@@ -44,6 +44,7 @@ function Line({ campaign, trial }: { campaign: number; trial: CampaignTrial }) {
     program_scan: noticed,
     output_scan: output,
     refused,
+    unvalued,
     why,
   } = trial;
   const opening = useCampaigns((campaigns) => campaigns.opening);
@@ -59,7 +60,7 @@ function Line({ campaign, trial }: { campaign: number; trial: CampaignTrial }) {
       <span role="cell">
         {text}
         {why && <small className="faint">{why}</small>}
-        {refused.map((each) => (
+        {[...refused, ...unvalued].map((each) => (
           <small key={each} className="faint">
             {each}
           </small>

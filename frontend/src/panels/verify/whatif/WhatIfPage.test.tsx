@@ -9,6 +9,7 @@ import { WhatIfPage } from "./WhatIfPage";
 const TRY: WhatIfTry = {
   values: [],
   met: null,
+  unvalued: null,
   output_scan: null,
   shown: ["0"],
   trapped: "",
