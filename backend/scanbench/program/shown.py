@@ -1,6 +1,7 @@
 """Expressions as text, for messages and for the names of what is checked."""
 
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import DATA
 
 
 def shown(node: tree.Expression) -> str:
@@ -17,7 +18,7 @@ def shown(node: tree.Expression) -> str:
         case tree.Dereference(reference):
             return f"{shown(reference)}^"
         case tree.PartialAccess(owner, size, index):
-            return f"{shown(owner)}.{index}" if size == "X" else f"{shown(owner)}.%{size}{index}"
+            return f"{shown(owner)}.{_part(size, index)}"
         case tree.DirectAddress(text):
             return text
         case tree.Literal("int", value):
@@ -29,6 +30,12 @@ def shown(node: tree.Expression) -> str:
         case tree.BinaryOp(op, left, right) if op in OPERATORS:
             return f"{shown(left)} {OPERATORS[op]} {shown(right)}"
     return "..."
+
+
+def _part(size: str, index: int) -> str:
+    if size.startswith(DATA):
+        return f"{size}{index // 8}" + (f".{index % 8}" if size.endswith("X") else "")
+    return str(index) if size == "X" else f"%{size}{index}"
 
 
 OPERATORS = {

@@ -223,6 +223,8 @@ def _with_closed_strings(source: Source, text: str, pieces: list[str], start: in
 
 NOTHING = "???"
 """What an editor of drawings, like those of other tools, writes at a pin that is not connected."""
+DATA = "DB"
+"""What the size of an address within a data block (`d.%DBW4`) begins with; its index is the number of its first bit."""
 GLOBAL_MARK = '"'
 """What a name begins with that is the one of something global, whatever the POU declares: SCL tells them apart by quotes."""
 FOREIGN = {

@@ -1,9 +1,11 @@
 """Expressions of Structured Text."""
 
+import re
+
 from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
-from scanbench.syntax.lexer import Lex
+from scanbench.syntax.lexer import DATA, Lex
 from scanbench.syntax.parse_generic import chosen_type
 from scanbench.syntax.parse_literal import literal
 from scanbench.syntax.source import Stretch
@@ -16,6 +18,7 @@ BINARY: dict[str, tuple[int, str]] = {
 }  # fmt: skip
 """Strength of the operators, 0 the weakest (IEC 61131-3, table 71); all are left-associative, and `-x` is stronger than all."""
 
+_IN_DATA = re.compile(r"%DB(?:([BWD])(\d{1,5})|X(\d{1,5})\.([0-7]))", re.IGNORECASE)
 UNARY = {"-": "neg", "+": "plus", "NOT": "not"}
 POSTFIX = frozenset((".", "[", "(", "^"))
 QUOTED_NAME = POSTFIX | {":="}
@@ -182,6 +185,10 @@ def _member(c: Cursor, base: tree.Expression) -> tree.Expression:
     if kind is Lex.INTEGER and text.isdigit() and len(text) < 4:
         c.at = at + 1
         return tree.PartialAccess(base, "X", int(text), base.span.to(c.span_of(at)))
+    if kind is Lex.ADDRESS and (inside := _IN_DATA.fullmatch(text)):
+        c.at = at + 1
+        index = 8 * int(inside[2] or inside[3]) + int(inside[4] or 0)
+        return tree.PartialAccess(base, f"{DATA}{(inside[1] or 'X').upper()}", index, base.span.to(c.span_of(at)))
     if kind is Lex.ADDRESS:
         size, (number, *bit) = text[1:2].upper(), text[2:].split(".")
         if size in "XBWDL" and all(each.isdigit() and len(each) < 4 for each in (number, *bit)) and len(bit) < 2:

@@ -25,6 +25,8 @@ _S5_NUMBER = re.compile(r"([TCZ])(\d{1,3})", re.IGNORECASE)
 _OLD_BLOCK = re.compile(r"S?FB\d+", re.IGNORECASE)
 _PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
 _NO_NAME = re.compile(r"\W")
+_BLOCK = re.compile(r"%(DB\d{1,5})", re.IGNORECASE)
+_BIT_OF_DATA = re.compile(r"DB?X(\d{1,5})", re.IGNORECASE)
 _CLOCKS = ("10Hz", "5Hz", "2_5Hz", "2Hz", "1_25Hz", "1Hz", "0_625Hz", "0_5Hz")
 SYSTEM_TAGS: dict[str, tuple[tuple[Lex, str], ...]] = {
     "ALWAYSTRUE": ((Lex.KEYWORD, "TRUE"),),
@@ -100,6 +102,10 @@ class Words(Rewriter):
         kind, text, at = self._in.kinds[self._at], self._in.texts[self._at], self._in.starts[self._at]
         if kind is Lex.TYPED:
             return self._literal(text, at)
+        if kind is Lex.ADDRESS and (block := _BLOCK.fullmatch(text)) and self._word(1) == ".":
+            self._at += 1
+            self._put(Lex.NAME, block[1], at + 1)
+            return True
         if kind is not Lex.NAME:
             return False
         if text == "_" and self._word(-1) == "=>" and self._word(1) in (",", ")"):
@@ -117,7 +123,17 @@ class Words(Rewriter):
         if _OLD_BLOCK.fullmatch(text) and self._word(1) == "." and self._word(3) == "(" and not self._declares:
             self._at += 2  # `FB10.DB10(...)` calls the instance
             return True
-        return not self._declares and self._address(text, at)
+        return not self._declares and (self._bit_of_data(text, at) or self._address(text, at))
+
+    def _bit_of_data(self, text: str, at: int) -> bool:
+        """`"Data".DBX4.1` as `"Data".%DBX4.1`."""
+        found = _BIT_OF_DATA.fullmatch(text) if self._word(-1) == "." and self._word(1) == "." else None
+        if found is None or self._in.kinds[self._at + 2] is not Lex.INTEGER:
+            return False
+        bit = self._in.texts[self._at + 2]
+        self._at += 3
+        self._put(Lex.ADDRESS, f"%DBX{found[1]}.{bit}", at)
+        return True
 
     def _literal(self, text: str, at: int) -> bool:
         moment, duration = DTL.match(self._source.text, at), S5.match(self._source.text, at)

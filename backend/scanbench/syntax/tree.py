@@ -84,7 +84,7 @@ class Dereference:
 
 @node
 class PartialAccess:
-    """`x.3`, `x.%X3`, `x.%B1`: bit or part number `index` of a bit string or integer; `size` is X, B, W, D or L."""
+    """`x.3`, `x.%X3`, `x.%B1`: bit or part number `index` of a bit string or integer; `size` is X, B, W, D or L, or begins with DATA."""
 
     owner: "Expression"
     size: str

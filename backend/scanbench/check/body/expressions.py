@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.absolute import of_data
 from scanbench.check.body.aggregates import aggregate
 from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
@@ -52,6 +53,7 @@ from scanbench.program.types import (
 )
 from scanbench.program.untyped import is_untyped, settle
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import DATA
 
 
 def expression(body: Body, node: tree.Expression, wanted: Type | None = None) -> Expr:
@@ -148,6 +150,8 @@ def _part_value(body: Body, node: tree.PartialAccess) -> Expr:
     if isinstance(node.owner, tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference):
         place, member = body.place(node.owner)
         whole = _known(place, member)
+        if node.size.startswith(DATA):
+            return Load(of_data(body, place, node))
         if whole is None:
             return Load(part(body, place, node.size, node.index, node.span))
     else:

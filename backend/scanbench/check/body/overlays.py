@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
-from scanbench.program.types import BOOL, TIME, ArrayType, Elementary, Kind, Record, Type, base_of
+from scanbench.program.types import BOOL, TIME, ArrayType, Elementary, Kind, Member, Record, Type, base_of
 from scanbench.syntax import tree
 
 MOST_BYTES = 256
@@ -34,7 +34,7 @@ class Leaf:
 
     @property
     def size(self) -> int:
-        return _size(self.type)
+        return size_of(self.type)
 
 
 def overlaid(
@@ -49,7 +49,7 @@ def overlaid(
     for view, base, span in overlays:
         for name in (base, view):
             parts[name] = list(_leaves(body, tree.Name(name, span), span))
-        sizes = [_size(_type(body, name, span)) for name in (view, base)]
+        sizes = [size_of(_type(body, name, span)) for name in (view, base)]
         if sizes[0] > sizes[1]:
             raise body.report.reject(
                 "D005", f"`{view}` takes {sizes[0]} bytes, and `{base}`, which it is AT, only {sizes[1]}.", span
@@ -228,9 +228,9 @@ def _type(body: Body, name: str, span: Span) -> Type:
 
 def _leaves(body: Body, node: tree.Name, span: Span) -> Iterator[Leaf]:
     type = _type(body, node.name, span)
-    if _size(type) > MOST_BYTES:
+    if size_of(type) > MOST_BYTES:
         raise body.report.reject(
-            "X001", f"`{node.name}` takes {_size(type)} bytes; at most {MOST_BYTES} can be seen in two ways.", span
+            "X001", f"`{node.name}` takes {size_of(type)} bytes; at most {MOST_BYTES} can be seen in two ways.", span
         )
     yield from _parts(body, node, type, 0, span)
 
@@ -240,12 +240,12 @@ def _parts(body: Body, node: tree.Expression, type: Type, byte: int, span: Span)
         case ArrayType():
             yield from _elements(body, node, type, byte, span)
         case Record() if type.kind is Kind.STRUCT:
-            for name, inner, at, bit in _members(type):
-                part = tree.MemberOf(node, name, span)
-                if _is_bit(inner):
+            for member, at, bit in members_at(type):
+                part = tree.MemberOf(node, member.name, span)
+                if is_bit(member.type):
                     yield Leaf(part, BOOL, byte + at, bit)
                 else:
-                    yield from _parts(body, part, inner, byte + at, span)
+                    yield from _parts(body, part, member.type, byte + at, span)
         case Elementary() if base_of(type).kind in (*PLAIN, Kind.BOOL) or base_of(type).name in SEEN:
             yield Leaf(node, base_of(type), byte, 0)
         case _:
@@ -258,10 +258,10 @@ def _elements(body: Body, node: tree.Expression, type: ArrayType, byte: int, spa
     indices: list[tuple[int, ...]] = [()]
     for low, high in type.bounds:
         indices = [(*before, each) for before in indices for each in range(low, high + 1)]
-    step = _step(type.element)
+    step = step_of(type.element)
     for number, index in enumerate(indices):
         part = tree.IndexOf(node, tuple(_number(each, span) for each in index), span)
-        if _is_bit(type.element):
+        if is_bit(type.element):
             yield Leaf(part, BOOL, byte + number // 8, number % 8)
         else:
             yield from _parts(body, part, type.element, byte + number * step, span)
@@ -272,40 +272,41 @@ def _number(value: int, span: Span) -> tree.Expression:
     return tree.UnaryOp("neg", literal, span) if value < 0 else literal
 
 
-def _is_bit(type: Type) -> bool:
+def is_bit(type: Type) -> bool:
+    """Whether it is a BOOL, of which eight share a byte."""
     return isinstance(type, Elementary) and type.kind is Kind.BOOL
 
 
-def _step(type: Type) -> int:
+def step_of(type: Type) -> int:
     """From one element of an array to the next: structures and arrays begin at even bytes."""
-    size = _size(type)
+    size = size_of(type)
     return size + size % 2 if isinstance(type, ArrayType | Record) else size
 
 
-def _members(type: Record) -> Iterator[tuple[str, Type, int, int]]:
+def members_at(type: Record) -> Iterator[tuple[Member, int, int]]:
     """Each with its byte and bit: BOOLs one after the other, bytes at any byte, all else at even ones."""
     bits = 0
     for member in type.members.values():
         if member.hidden:
             continue
-        if not _is_bit(member.type):
+        if not is_bit(member.type):
             bits = -(-bits // 8) * 8
-            if _size(member.type) > 1 or isinstance(member.type, ArrayType | Record):
+            if size_of(member.type) > 1 or isinstance(member.type, ArrayType | Record):
                 bits = -(-bits // 16) * 16
-        yield member.name, member.type, bits // 8, bits % 8
-        bits += 1 if _is_bit(member.type) else 8 * _size(member.type)
+        yield member, bits // 8, bits % 8
+        bits += 1 if is_bit(member.type) else 8 * size_of(member.type)
 
 
-def _size(type: Type) -> int:
+def size_of(type: Type) -> int:
     """Bytes in an S7 with standard access."""
     if isinstance(type, ArrayType):
         count = type.count
-        whole = -(-count // 8) if _is_bit(type.element) else count * _step(type.element)
+        whole = -(-count // 8) if is_bit(type.element) else count * step_of(type.element)
         return whole + whole % 2
     if isinstance(type, Record):
-        last = [(at, inner) for _, inner, at, _ in _members(type)]
-        whole = 0 if not last else last[-1][0] + (1 if _is_bit(last[-1][1]) else _size(last[-1][1]))
+        last = [(at, member.type) for member, at, _ in members_at(type)]
+        whole = 0 if not last else last[-1][0] + (1 if is_bit(last[-1][1]) else size_of(last[-1][1]))
         return whole + whole % 2
     if type == TIME:
         return TIME_BYTES
-    return 1 if _is_bit(type) else type.size
+    return 1 if is_bit(type) else type.size

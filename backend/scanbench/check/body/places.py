@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from scanbench.check.body.absolute import named_address, of_data
 from scanbench.check.body.allowed import allowed
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.elements import element
@@ -32,6 +33,7 @@ from scanbench.program.types import (
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 from scanbench.syntax.chart import kept
+from scanbench.syntax.lexer import DATA
 
 VARIABLES = tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference | tree.PartialAccess
 """What names a place."""
@@ -79,6 +81,8 @@ def raw_place(body: Body, node: tree.Expression) -> Found:
             if bit is not None:
                 return bit, None
             place, member = body.place(owner)
+            if size.startswith(DATA):
+                return of_data(body, place, node), None
             return part(body, place, size, index, span), member
         case tree.DirectAddress():
             return _addressed(body, node), None
@@ -111,6 +115,8 @@ def _member(body: Body, node: tree.MemberOf) -> Found:
         hint = f" Write `{shown(node.owner)}^.{node.name}`." if isinstance(record, Reference) else ""
         raise body.report.reject("T010", f"{record} has no members.{hint}", node.span)
     member = record.members.get(node.name.upper())
+    if member is None and (address := named_address(node)) is not None:
+        return of_data(body, place, address), None
     if member is None or member.hidden:
         raise no_member(body, record, node)
     body.report.use(node.span, node.name, variable_symbol(member, record))

@@ -1,5 +1,7 @@
 """Names -> variables, as they are declared."""
 
+import re
+
 from scanbench.check.body.allowed import used
 from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Rejected
@@ -13,8 +15,10 @@ from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
+from scanbench.syntax.scl import is_scl
 
 INSTANCE = ("THIS", "SUPER")
+_NUMBERED = re.compile(r"DB\d{1,5}", re.IGNORECASE)
 
 
 def declared(body: Body, name: str, span: Span) -> Found:
@@ -74,6 +78,8 @@ def undeclared(body: Body, name: str, span: Span) -> Rejected:
     hint = body.report.near(name, lambda: _known(body), "variable")
     if body.declarations.model.locate(name) is not None:  # after AT it needs no percent sign
         hint += f" The address of the PLC is written `%{name}` in statements; or declare a variable AT it."
+    if not hint and _NUMBERED.fullmatch(name) and is_scl(span.file):
+        hint = f" Sources name data blocks, and say no numbers: declare `DATA_BLOCK {name}`, or write the name of the block."
     return body.report.reject("T001", f"`{name}` is not declared.{hint}", span)
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from scanbench.syntax.l5x import notes
+from scanbench.syntax.l5x.elements import OPEN
 from scanbench.syntax.l5x.names import name_of, type_name
 from scanbench.syntax.l5x.values import members_of, sizes_of, start_value, structure_in
 from scanbench.syntax.xml_tree import Element, attribute, child, children, text_of
@@ -17,9 +18,15 @@ def dimensions_of(node: Element) -> list[int]:
     return sizes_of(attribute(node, "Dimensions") or attribute(node, "Dimension"))
 
 
+def sizes_here(node: Element) -> list[int]:
+    """The dimensions, each `OPEN` of an `InOut` parameter: it takes arrays of any size, and its own is a placeholder."""
+    sizes = dimensions_of(node)
+    return [OPEN] * len(sizes) if attribute(node, "Usage") == "InOut" else sizes
+
+
 def spec(type: str, sizes: Iterable[int]) -> str:
     """The type as it is declared here; arrays of Logix begin with 0."""
-    ranges = ", ".join(f"0..{size - 1}" for size in sizes)
+    ranges = ", ".join("*" if size == OPEN else f"0..{size - 1}" for size in sizes)
     return f"ARRAY[{ranges}] OF {type_name(type)}" if ranges else type_name(type)
 
 
@@ -32,7 +39,7 @@ def line_of_tag(node: Element, told: list[str]) -> str:
         told.append(notes.lost_value(attribute(node, "Name"), lost[0]))
     if attribute(node, "TagType") in ("Produced", "Consumed"):
         comment = " ".join((comment, "(exchanged with another controller, which there is not here)")).strip()
-    declared = f"{name_of(attribute(node, 'Name'))} : {spec(attribute(node, 'DataType'), dimensions_of(node))}"
+    declared = f"{name_of(attribute(node, 'Name'))} : {spec(attribute(node, 'DataType'), sizes_here(node))}"
     return f"{INDENT}{declared}{f' := {initial}' if initial else ''};{f' // {comment}' if comment else ''}\n"
 
 

@@ -11,6 +11,8 @@ NUMBERS = ("SINT", "INT", "DINT", "LINT", "USINT", "UINT", "UDINT", "ULINT", "RE
 """Types whose bytes are the same here as there."""
 FILLED = ("SINT", "INT", "DINT", "LINT", "REAL")
 """Types that FLL has a function for."""
+OPEN = 0
+"""The size of a dimension that comes with each call."""
 PACKED = ("BOOL", "BIT")
 """Types whose values share bytes there."""
 _WORDS = ("DINT", "REAL", "UDINT")
@@ -56,7 +58,8 @@ def element(written: str, known: Names) -> Element | None:
         if sizes:
             index = (index or "0").strip()
             text += f"[{index}]"
-            left = str(sizes[0]) if index == "0" else f"{sizes[0]} - ({index})"
+            size = f"UPPER_BOUND({step[2]}, 1) + 1" if sizes[0] == OPEN else str(sizes[0])
+            left = size if index == "0" else f"{size} - ({index})"
         elif index is not None:
             return None
         at = step.end()

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 
 from scanbench.syntax.l5x import notes
-from scanbench.syntax.l5x.elements import FILLED, PACKED, element, following, same_bytes
+from scanbench.syntax.l5x.elements import FILLED, OPEN, PACKED, element, following, same_bytes
 from scanbench.syntax.l5x.known import Known
 from scanbench.syntax.l5x.names import CONTROLLER, LIBRARY
 
@@ -56,6 +56,8 @@ def sized(known: Known, tell: Tell, given: list[str]) -> str:
     if not dimension.isdigit() or int(dimension) >= len(sizes):
         tell(notes.no_size(f"SIZE({', '.join(given)})"))
         return f"SIZE({', '.join(given)})"
+    if sizes[int(dimension)] == OPEN:
+        return f"{result} := UPPER_BOUND({source.partition('[')[0].strip()}, {int(dimension) + 1}) + 1"
     return f"{result} := {sizes[int(dimension)]}"
 
 

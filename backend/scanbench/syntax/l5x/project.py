@@ -6,7 +6,7 @@ from itertools import chain, count
 
 from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
-from scanbench.syntax.l5x.declarations import data_type, dimensions_of, section, sections, types_of_data
+from scanbench.syntax.l5x.declarations import data_type, section, sections, sizes_here, types_of_data
 from scanbench.syntax.l5x.known import Known, Parameter, Passed
 from scanbench.syntax.l5x.names import CONTROLLER, ELEMENTARY, OWN, TYPES, name_of
 from scanbench.syntax.l5x.statements import TooDeep, passed_of, statements
@@ -224,7 +224,7 @@ def _when(task: Element) -> str:
 def _types(tags: Iterable[Element]) -> dict[str, tuple[str, list[int]]]:
     """The type and the dimensions of each, by its name here."""
     return {
-        name_of(attribute(each, "Name")).upper(): (attribute(each, "DataType").upper(), dimensions_of(each))
+        name_of(attribute(each, "Name")).upper(): (attribute(each, "DataType").upper(), sizes_here(each))
         for each in tags
     }
 

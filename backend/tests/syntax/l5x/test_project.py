@@ -284,3 +284,55 @@ def test_values_that_depend_on_each_other_are_not_passed() -> None:
     told: list[str] = []
     assert statements("JSR(Fill, 2, b, a);", known, told) == "JSR(Fill, 2, b, a);"
     assert len(told) == 1
+
+
+def test_an_add_on_instruction_takes_arrays_of_any_size() -> None:
+    def parameter(name: str, type: str, usage: str, dimensions: str = "") -> str:
+        sizes = f' Dimensions="{dimensions}"' if dimensions else ""
+        return f'<Parameter Name="{name}" TagType="Base" DataType="{type}" Usage="{usage}"{sizes} Required="true"/>'
+
+    text = (
+        "SIZE(List, 0, n); List[n - 1] := List[0] + n; FOR i := 0 TO n - 1 DO Total := Total + List[i]; END_FOR; "
+        "COP(List[1], Copy[0], 9); FLL(7, Copy[1], 99); SIZE(Grid, 1, Wide);"
+    )
+    shift = (
+        '<AddOnInstructionDefinition Name="Shift"><Parameters>'
+        + parameter("List", "DINT", "InOut", "1")
+        + parameter("Copy", "DINT", "InOut", "1")
+        + parameter("Grid", "INT", "InOut", "1 1")
+        + parameter("Total", "DINT", "Output")
+        + parameter("Wide", "DINT", "Output")
+        + '</Parameters><LocalTags><LocalTag Name="n" DataType="SINT"/><LocalTag Name="i" DataType="INT"/></LocalTags><Routines>'
+        + routine("Logic", text)
+        + "</Routines></AddOnInstructionDefinition>"
+    )
+    tags = "".join(
+        f'<Tag Name="{name}" TagType="Base" DataType="{type}"{sizes}/>'
+        for name, type, sizes in (
+            ("Few", "DINT", ' Dimensions="2"'),
+            ("Many", "DINT", ' Dimensions="5"'),
+            ("Plan", "INT", ' Dimensions="2 3"'),
+            ("One", "Shift", ""),
+            ("Two", "Shift", ""),
+            ("a", "DINT", ""),
+            ("b", "DINT", ""),
+            ("w", "DINT", ""),
+        )
+    )
+    main = routine("M", "Many[0] := 3; Shift(One, Few, Many, Plan, a, w); Shift(Two, Many, Few, Plan, b, w);")
+    made = read_project(
+        controller(
+            "",
+            f'<Program Name="P" MainRoutineName="M"><Tags>{tags}</Tags><Routines>{main}</Routines></Program>',
+            f"<AddOnInstructionDefinitions>{shift}</AddOnInstructionDefinitions>",
+        )
+    )
+    assert [each.notes for each in made.pous] == [[], []]
+    files = {name: each for name, each in made.files.items() if name != "Configuration.st"}
+    plc = BothEngines(
+        {**files, **{each.path: each.text for each in used_libraries(files, "rockwell")}}, MODELS["GENERIC-IEC"]
+    )
+    plc.run(1)
+    assert plc.values("P.a", "P.b", "P.w") == ["2", "30", "3"]
+    assert plc.values(*(f"P.Many[{i}]" for i in range(5))) == ["2", "7", "7", "7", "7"]
+    assert plc.values("P.Few[0]", "P.Few[1]") == ["7", "7"]
