@@ -167,7 +167,7 @@ def _drawn(reading: Reading, name: str) -> CannotRename | None:
 
 
 def _words(reading: Reading, file: str, name: str) -> Iterator[int]:
-    """Where this word is in a file, but as the formal parameter of a standard function, which nobody renames."""
+    """Where this word is in a file, but as what nobody renames: the formal parameter of a standard function, a word of a configuration."""
     for start, tokens in reading.tokens(file):
         for at, (kind, text) in enumerate(zip(tokens.kinds, tokens.texts, strict=True)):
             if kind is Lex.TYPED:  # `Color#RED`
@@ -176,7 +176,11 @@ def _words(reading: Reading, file: str, name: str) -> Iterator[int]:
                     yield start + tokens.starts[at]
                 if value.upper() == name:
                     yield start + tokens.starts[at] + len(type) + 1
-            if kind is Lex.NAME and text.upper() == name and not _is_standard_formal(tokens, at):
+            if (
+                kind is Lex.NAME
+                and text.upper() == name
+                and not (_is_standard_formal(tokens, at) or _is_of_configuration(tokens, at))
+            ):
                 yield start + tokens.starts[at]
 
 
@@ -191,6 +195,20 @@ def _is_standard_formal(tokens: Tokens, at: int) -> bool:
         if tokens.texts[at] == ";":
             return False
     return at > 0 and tokens.texts[at - 1].upper() in FUNCTIONS
+
+
+def _is_of_configuration(tokens: Tokens, at: int) -> bool:
+    """Whether it is the `ON` of `RESOURCE Cpu ON`, the `WITH` of `PROGRAM Main WITH`, or an input of `TASK Cyclic(`."""
+    before = [text.upper() for text in tokens.texts[max(at - 2, 0) : at]]
+    match tokens.texts[at].upper():
+        case "ON":
+            return before[:1] == ["RESOURCE"]
+        case "WITH":
+            return before[:1] == ["PROGRAM"]
+        case "INTERVAL" | "PRIORITY" | "SINGLE":
+            begin = max((each for each in range(at) if tokens.texts[each] in ("(", ";")), default=0)
+            return begin > 1 and tokens.texts[begin] == "(" and tokens.texts[begin - 2].upper() == "TASK"
+    return False
 
 
 def refusal(reading: Reading, symbol: Symbol) -> CannotRename | None:

@@ -87,6 +87,21 @@ END_FUNCTION_BLOCK"""
             "METHOD PUBLIC foo : INT VAR_INPUT p : INT; END_VAR\nfoo := p;\nEND_METHOD\nEND_CLASS\n"
             "PROGRAM Main VAR a : A; n : INT; END_VAR\nn := a.foo(p := 1);\nEND_PROGRAM", "part", ["foo := part;", "a.foo(part := 1)"],
         ),
+        (
+            "PROGRAM Main VAR |on, with, priority : BOOL; END_VAR\non := with AND priority;\nEND_PROGRAM\nCONFIGURATION C\n"
+            "RESOURCE R ON CJ1M\nTASK t(INTERVAL := T#1s, PRIORITY := 1);\nPROGRAM p WITH t : Main;\nEND_RESOURCE\nEND_CONFIGURATION",
+            "runs", ["runs := with", "RESOURCE R ON CJ1M"],
+        ),
+        (
+            "PROGRAM Main VAR on, with, |priority : BOOL; END_VAR\non := with AND priority;\nEND_PROGRAM\nCONFIGURATION C\n"
+            "TASK t(INTERVAL := T#1s, PRIORITY := 1);\nPROGRAM p WITH t : Main;\nEND_CONFIGURATION",
+            "first", ["with AND first;", "PRIORITY := 1"],
+        ),
+        (
+            "PROGRAM Main VAR on, |with, priority : BOOL; END_VAR\non := with AND priority;\nEND_PROGRAM\nCONFIGURATION C\n"
+            "TASK t(INTERVAL := T#1s, PRIORITY := 1);\nPROGRAM p WITH t : Main;\nEND_CONFIGURATION",
+            "beside", ["on := beside AND", "PROGRAM p WITH t"],
+        ),
         ("PROGRAM Main VAR |Straße : INT; END_VAR\nstraße := Straße + 1;\nEND_PROGRAM", "way", ["way := way + 1;"]),
     ],
 )  # fmt: skip
