@@ -121,4 +121,8 @@ test("a click means the pin whose row it is in", () => {
   expect(pinAtPoint(drawing, frame.x + frame.width + 20, frame.outputs.at(-1)?.y ?? 0)).toEqual({ place: [0], pin: 2 });
   expect(pinAtPoint(drawing, frame.x + 20, frame.y + 4)).toBeNull();
   expect(spotOfPin(drawing, [0], 1)?.y).toBe((pt?.y ?? 0) + 4);
+  const field = spotOfPin(drawing, [0], 1);
+  // Beside its box, also at the left rail.
+  expect((field?.x ?? 0) + (field?.width ?? 0)).toBeLessThan(frame.x);
+  expect(field?.x).toBeGreaterThan(-60);
 });

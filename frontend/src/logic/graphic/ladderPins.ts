@@ -23,17 +23,20 @@ export function pinAtPoint({ elements }: Drawing, x: number, y: number): { place
   return null;
 }
 
-/** Where the field of a pin is drawn. */
+/** The field of a pin: from the least to the most that it needs, and what is left of the drawing besides, its number and marks. */
+const [LEAST, MOST, BESIDE] = [80, 160, 52];
+
+/** Where the field of a pin is drawn: beside its box, which says what the pin is. */
 export function spotOfPin({ elements }: Drawing, place: Place, pin: number) {
   const drawn: Drawn | undefined = elements.find((each) => each.place.join() === place.join());
   const frame: Frame | null = drawn?.frame ?? null;
   const input = frame?.inputs.find(({ arg }) => arg === pin);
   const output = frame?.outputs.find(({ arg }) => arg === pin);
   if (!frame || !(input ?? output)) return null;
-  const width = 110;
-  return input
-    ? { x: frame.x - 12 - width, y: input.y + 4, width }
-    : { x: frame.x + frame.width + 12, y: (output?.y ?? 0) + 4, width };
+  if (!input) return { x: frame.x + frame.width + 12, y: (output?.y ?? 0) + 4, width: MOST };
+  const right = frame.x - 12;
+  const width = Math.max(LEAST, Math.min(MOST, right + BESIDE));
+  return { x: right - width, y: input.y + 4, width };
 }
 
 /** The first pin of a box that nothing is connected to. */

@@ -41,7 +41,9 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     return [...found.filter(begins), ...found.filter((each) => !begins(each))];
   }, []);
   const offering = useOffers(offered, MOST);
-  const wide = naming.offers === "none" && naming.example ? 360 : Math.max(naming.offers === "bool" ? 120 : 200, width);
+  const least = naming.offers === "bool" ? 120 : 200;
+  const atPin = naming.pin !== undefined;
+  const wide = naming.offers === "none" && naming.example ? 360 : atPin ? width : Math.max(least, width);
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: once, when it opens
   useEffect(() => {
@@ -117,7 +119,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     // What is typed or clicked here is no key or click of the drawing.
     <span
       className="inplace"
-      style={{ left: Math.max(0, x), top: y - up - 6, width: wide }}
+      style={{ left: atPin ? x : Math.max(0, x), top: y - up - 6, width: wide }}
       onKeyDownCapture={onEscape}
       onKeyDown={(event) => event.stopPropagation()}
       onClick={(event) => event.stopPropagation()}
