@@ -49,11 +49,14 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
   });
   const step = (name: string) => sheet.getByRole('option', { name: new RegExp(`^(Initial s|S)tep ${name}\\b`) });
   const active = sheet.locator('.step.on');
+  /** A scan in which only the first step was active. */
+  let idle = 0;
   await test.step('it is drawn, and the first step is active', async () => {
     await expect(step('Idle')).toBeVisible();
     await mika.editor('Batch.st').build();
     await expect(active).toHaveCount(1);
     await expect(step('Idle')).toContainText('T#');
+    idle = await mika.timeline.position();
   });
 
   await test.step('two steps become active together, with their actions', async () => {
@@ -82,7 +85,14 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
   await test.step('its text has the values of actions and transitions at the ends of their lines', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await expect(page.locator('.inlinerow').filter({ hasText: 'rounds' })).not.toHaveCount(0);
-    await expect(page.locator('.inlinerow').filter({ hasText: /level\s*0/ })).not.toHaveCount(0);
+    const level = page.locator('.inlinerow').filter({ hasText: /level\s*0/ });
+    await expect(level).not.toHaveCount(0);
+    // In the past they are those of the scan that is shown, and the drawing has its step.
+    await mika.timeline.goTo(idle);
+    await expect(level).not.toHaveCount(0);
+    await expect(active).toHaveCount(1);
+    await mika.timeline.returnToLive();
+    await expect(active).toHaveCount(2);
     await page.getByRole('radio', { name: 'Drawing' }).click();
   });
 

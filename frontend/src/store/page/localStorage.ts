@@ -21,8 +21,13 @@ function isLike<T>(fallback: T, kept: unknown): kept is T {
 
 /** False when the browser has no room or no storage; the caller decides whether that matters. */
 export function keep(key: string, value: unknown): boolean {
+  return keepText(key, JSON.stringify(value));
+}
+
+/** As `keep`, of a value that is JSON already. */
+export function keepText(key: string, text: string): boolean {
   try {
-    localStorage.setItem(PREFIX + key, JSON.stringify(value));
+    localStorage.setItem(PREFIX + key, text);
     return true;
   } catch {
     return false;

@@ -2,7 +2,7 @@
  * Unsaved texts that this browser keeps, because nobody else has them: not yet acknowledged by the server, or without a draft there. Several
  * pages of one browser keep each their own unacknowledged changes, and none forgets what a different page wrote.
  */
-import { forgetSame, keep, keysOf, recall } from "../page/localStorage";
+import { forgetSame, keepText, keysOf, recall } from "../page/localStorage";
 
 /** What the server did not acknowledge of a draft. */
 interface Unsent {
@@ -60,7 +60,8 @@ export function keepUnsent(project: number, path: string, unsent: Unsent): void 
 }
 
 function write(key: string, value: object): void {
-  if (keep(key, value)) own.set(key, JSON.stringify(value));
+  const text = JSON.stringify(value);
+  if (keepText(key, text)) own.set(key, text);
 }
 
 export function forgetDraft(project: number, path: string): void {

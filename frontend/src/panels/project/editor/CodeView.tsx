@@ -69,6 +69,9 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     view.current = code;
     if (ran === null && left.has(path)) code.restoreViewState(left.get(path) ?? null);
     if (ran === null) left.delete(path);
+    // Who comes from the drawing sees the line of its element.
+    const { cursor, active } = useDocuments.getState();
+    if (active === path && cursor?.element) code.revealLineInCenterIfOutsideViewport(cursor.line);
     addActions(code, path);
     addTabActions(code);
     addWatchAction(code, path);

@@ -13,7 +13,7 @@ import { afterWords } from "./loading";
 
 // Monaco is 4 MB: it is loaded after the page is shown.
 const CodeView = later(() => afterWords(() => import("./CodeView")));
-const GraphicView = later(() => import("./graphic/GraphicView"));
+const GraphicView = later(() => afterWords(() => import("./graphic/GraphicView")));
 
 /** Says which version is shown, and that the edited text is kept; or why there is no text. */
 function PastNote({ path, version }: { path: string; version: number }) {
@@ -62,7 +62,10 @@ function RefusedNote({ path }: { path: string }) {
   );
 }
 
-/** The text of a file, its drawing where it has ladders or charts, or both. The text stays in the page: it is what is edited. */
+/**
+ * The text of a file, its drawing where it has ladders or charts, or both. What is edited is Monaco's text, which stays; without its editor
+ * a drawing is quicker: an editor out of sight follows each change, too.
+ */
 function Views({ path, past }: { path: string; past: string | null }) {
   const edited = useDocuments((documents) => documents.open[path]?.text ?? "");
   const text = past ?? edited;
@@ -70,9 +73,11 @@ function Views({ path, past }: { path: string; past: string | null }) {
   return (
     <div className="edviews">
       {view !== "text" && <GraphicView path={path} text={text} readOnly={past !== null} />}
-      <div className="textview" hidden={view === "graphic"}>
-        <CodeView path={path} past={past} />
-      </div>
+      {view !== "graphic" && (
+        <div className="textview">
+          <CodeView path={path} past={past} />
+        </div>
+      )}
     </div>
   );
 }

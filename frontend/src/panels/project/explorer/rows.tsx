@@ -1,4 +1,5 @@
 import { useEffect } from "react";
+import { useShallow } from "zustand/react/shallow";
 import { lineOf } from "../../../logic/debug/breakpoints";
 import { allErrors } from "../../../logic/errors/catalogue";
 import { percent } from "../../../logic/format/numbers";
@@ -74,7 +75,17 @@ export function useExplorerRows(
     "tasks",
     "instances",
   ]);
-  const { pous, tasks, files, active, cursor, problems } = useDocuments();
+  // Not the texts: who types changes nothing here.
+  const { pous, tasks, files, active, cursor, problems } = useDocuments(
+    useShallow(({ pous, tasks, files, active, cursor, problems }) => ({
+      pous,
+      tasks,
+      files,
+      active,
+      cursor,
+      problems,
+    })),
+  );
   const here = active === null ? undefined : shownAt(pous, active, cursor?.line ?? 1);
   const { instance, model } = useBench();
   const members = useMembers((state) => state.of);

@@ -3,6 +3,7 @@ import {
   type ClipboardEvent,
   type KeyboardEvent,
   type MouseEvent,
+  useCallback,
   useEffect,
   useId,
   useLayoutEffect,
@@ -22,7 +23,6 @@ import {
   heightOf,
   Sheet,
   scaleOf,
-  stepIn,
   stopsOf,
 } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
@@ -42,7 +42,7 @@ import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
 import { ElementField } from "./ElementField";
 import { Foot } from "./Foot";
-import { emptyAfter, isInSight, pinAt, placeInText, wireAt } from "./find";
+import { cursorAt, emptyAfter, isInSight, pinAt, placeInText } from "./find";
 import { isUnbuilt } from "./followFlow";
 import { marksOf, togglePart } from "./marks";
 import { type Operand, operandAt, pressOperand } from "./operand";
@@ -52,6 +52,7 @@ import { Rename } from "./Rename";
 import { svgFile } from "./svgFile";
 import { useChosen } from "./useChosen";
 import { useDrag } from "./useDrag";
+import { useDrawingMenu } from "./useDrawingMenu";
 import { type Cursor, keyOf, useEditing } from "./useEditing";
 import { wrongIn } from "./wrong";
 
@@ -148,10 +149,13 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     count: drawn.length,
     getScrollElement: () => sheet.current,
     estimateSize: heightAt,
-    overscan: 4,
+    overscan: 2,
   });
+  // Most edits change no height: then there is nothing to place again.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  useEffect(() => virtual.measure(), [drawn, preview, fit, room]);
+  const heights = useMemo(() => drawn.map((_, index) => heightAt(index)).join(), [drawn, preview, fit, room]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: it measures the heights
+  useLayoutEffect(() => virtual.measure(), [heights]);
 
   const target = useNavigation((navigation) => navigation.place);
   const turn = useRef(target?.turn);
@@ -214,27 +218,43 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     saveFile(new Blob([written], { type: "image/svg+xml" }), `${baseName(path).replace(/\.\w+$/, "")}.svg`);
   }
 
+  const take = (what: "copy" | "cut", at: Cursor) => (chosen ? choosing[what]() : editing[what](at));
+  const context = useDrawingMenu({
+    ...{ drawn, readOnly, sheet, press, take, isChosen: choosing.holds },
+    go: (to) => {
+      choosing.clear();
+      setCursor(to);
+    },
+    idOf: ({ rung, place }) => `${id}${rung}-${place.join(".")}`,
+    paste: editing.put,
+    onRefused: () => editing.refuse("graphic.menu.unpasted"),
+  });
+
   function onKeyDown(event: KeyboardEvent): void {
     if (!event.metaKey && doesKey(event)) event.preventDefault();
   }
 
   function doesKey(event: KeyboardEvent): boolean {
-    if (choosing.byKey(event, cursor)) return true;
+    if (context.byKey(event, cursor) || choosing.byKey(event, cursor)) return true;
     const to = moved(event, cursor, drawn);
-    const key = keyOf(event);
-    if (!to && key === "Ctrl+F2") setRenaming(readOnly ? null : operandAt(cursorPart, cursor.place));
-    else if (!to)
-      return pressOperand(key, path, cursorPart, cursor.place) || choosing.press(key) || editing.press(key, cursor);
-    if (!to) return true;
+    if (!to) return press(keyOf(event), cursor);
     choosing.clear();
     go(to);
+    return true;
+  }
+
+  /** Does what a key does, whoever pressed it. False where it does nothing. */
+  function press(key: string, at: Cursor): boolean {
+    const part = drawn[at.rung];
+    if (key === "Ctrl+F2") setRenaming(readOnly ? null : operandAt(part, at.place));
+    else return pressOperand(key, path, part, at.place) || choosing.press(key) || editing.press(key, at);
     return true;
   }
 
   /** What is copied in a field is its text, and no business of the drawing. */
   function onClipboard(event: ClipboardEvent, what: "copy" | "cut"): void {
     if (event.target instanceof HTMLInputElement) return;
-    const text = chosen ? choosing[what]() : editing[what](cursor);
+    const text = take(what, cursor);
     if (text === null) return;
     event.clipboardData.setData("text/plain", text);
     event.preventDefault();
@@ -255,7 +275,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   }
 
   /** Whether what was typed into the field was taken; `onwards` opens the next one. */
-  function take(typed: string, onwards: boolean): boolean {
+  function takeName(typed: string, onwards: boolean): boolean {
     const at = named?.rung ?? 0;
     const made = editing.take(typed);
     if (!made) return false;
@@ -274,17 +294,14 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (!(on instanceof Element)) return;
     const rung = on.closest<HTMLElement>("[data-index]");
     if (!rung) return;
-    const hit = on.closest<SVGElement>("[data-element]")?.dataset.element;
     const index = Number(rung.dataset.index);
     const clicked = drawn[index];
     if (clicked && on.closest(".g")) {
       togglePart(path, clicked, placeInText(clicked, { rung: index, place: [0] }));
       return;
     }
-    const goal = on.closest<SVGElement>("[data-goal]")?.dataset.goal;
-    const step = goal === undefined ? undefined : stepIn(clicked, goal);
-    const onWire = hit === undefined && clicked ? wireAt(clicked, event) : null;
-    const to = { rung: index, place: step ?? onWire ?? (hit === undefined ? [] : hit.split(".").map(Number)) };
+    const to = cursorAt(drawn, event);
+    if (!to) return;
     if (event.shiftKey) choosing.extend(chosen?.anchor ?? cursor, to);
     else if (event.ctrlKey || event.metaKey) choosing.toggle(cursor, to);
     else {
@@ -309,6 +326,10 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (!named) sheet.current?.focus();
     if (!choosing.press(key)) editing.press(key, cursor);
   }
+
+  const toolNow = useRef(tool);
+  toolNow.current = tool;
+  const onTool = useCallback((key: string) => toolNow.current(key), []);
 
   function renamed(): void {
     setRenaming(null);
@@ -335,6 +356,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         onPaste={onPaste}
         onFocus={look}
         onClick={onClick}
+        onContextMenu={context.onContextMenu}
         onPointerDown={drag.onPointerDown}
         onPointerMove={drag.onPointerMove}
         onPointerUp={drag.onPointerUp}
@@ -376,7 +398,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                         scale={scaleAt(part)}
                         named={named}
                         around={around}
-                        onTake={take}
+                        onTake={takeName}
                         onLeave={leave}
                       />
                     ) : null
@@ -395,6 +417,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           })}
         </div>
       </div>
+      {context.menu}
       {renaming && <Rename path={path} operand={renaming} onClose={renamed} />}
       <Foot
         path={path}
@@ -405,7 +428,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         pou={cursorPou}
         refused={editing.refused}
         wrong={wrongAtCursor}
-        onPress={tool}
+        onPress={onTool}
         onFile={toFile}
       />
     </div>

@@ -4,10 +4,11 @@ import { type Drop, dropsOf } from "../../../../logic/graphic/drops";
 import type { PartFlow } from "../../../../logic/graphic/flow";
 import type { Heading } from "../../../../logic/graphic/heading";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
-import type { DrawnPart } from "../../../../logic/graphic/sheet";
+import { type DrawnPart, spotsOf } from "../../../../logic/graphic/sheet";
 import type { Twice } from "../../../../logic/graphic/writers";
 import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
-import { useMembers } from "../../../../store/plc/members";
+import { isAway, useMembers } from "../../../../store/plc/members";
+import { usePlc } from "../../../../store/plc/plc";
 import { useForces } from "../../../../store/watch/forces";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
@@ -191,6 +192,8 @@ function Picture({
   target: string;
 }) {
   const picture = useRef<HTMLDivElement>(null);
+  /** The elements that have something live. */
+  const shapeShown = useRef("");
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
   const members = useMembers(({ of }) => of);
   const forces = useForces();
@@ -199,13 +202,24 @@ function Picture({
   const diagram = part.kind === "network" ? part.drawing : null;
   const live = part.readable && !part.found.head.off;
 
+  const away = usePlc(() => isAway());
+  // A program that comes takes what the names of the one before meant with it, also while nobody can be asked.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: asked again when what was known is gone
   useEffect(() => {
-    if (pou !== undefined) void loadNames(pou.name);
-  }, [pou]);
+    if (pou !== undefined && !away) void loadNames(pou.name);
+  }, [pou, instance, members, away]);
   // biome-ignore lint/correctness/useExhaustiveDependencies: what a name means depends on the instance and its variables, and forces are drawn
   useEffect(() => {
     const svg = picture.current?.querySelector("svg");
-    if (!svg || pou === undefined || !live) return;
+    if (!svg) return;
+    const shape = spotsOf(part)
+      .map(({ place, element }) => `${place.join(".")} ${element.kind}`)
+      .join();
+    // Of the same elements each is shown again at once, and most have what they had: to take it away first would style all of them twice.
+    if (pou === undefined || !live || shape !== shapeShown.current) clear(svg);
+    shapeShown.current = shape;
+    onSaid("");
+    if (pou === undefined || !live) return;
     const shown =
       (rung && showRung(svg, rung, pou)) ||
       (diagram && showDiagram(svg, diagram, pou)) ||
@@ -217,8 +231,6 @@ function Picture({
     return () => {
       stop();
       shown?.stop();
-      clear(svg);
-      onSaid("");
     };
   }, [rung, diagram, chart, pou, live, instance, members, forces]);
 

@@ -1,3 +1,4 @@
+import { memo } from "react";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { type TextKey, t } from "../../../../text";
 
@@ -55,7 +56,7 @@ interface Props {
 }
 
 /** The keys of a drawing as buttons: each does what its key does at the cursor. */
-export function Tools({ kind, onPress }: Props) {
+export const Tools = memo(function Tools({ kind, onPress }: Props) {
   return (
     <div className="tools" role="toolbar" aria-label={t("graphic.tools")}>
       {TOOLS[kind].map(({ key, shown, word }) => (
@@ -73,4 +74,4 @@ export function Tools({ kind, onPress }: Props) {
       ))}
     </div>
   );
-}
+});

@@ -11,7 +11,7 @@ import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { pinAtPoint } from "../../../../logic/graphic/ladderPins";
 import type { Found } from "../../../../logic/graphic/networks";
 import { inText } from "../../../../logic/graphic/places";
-import { type DrawnPart, placeOnWire, stopsOf } from "../../../../logic/graphic/sheet";
+import { type DrawnPart, placeOnWire, stepIn, stopsOf } from "../../../../logic/graphic/sheet";
 import { sameElement } from "./cursor";
 import type { Cursor } from "./useEditing";
 
@@ -23,8 +23,22 @@ export function isInSight(virtual: Virtualizer<HTMLDivElement, Element>, index: 
   return item.start >= top && item.end <= top + height;
 }
 
+/** The element, wire or part that the mouse is at; null where there is none. */
+export function cursorAt(drawn: readonly DrawnPart[], event: MouseEvent): Cursor | null {
+  const on = event.target instanceof Element ? event.target : null;
+  const row = on?.closest<HTMLElement>("[data-index]");
+  if (!on || !row) return null;
+  const index = Number(row.dataset.index);
+  const part = drawn[index];
+  const hit = on.closest<SVGElement>("[data-element]")?.dataset.element;
+  const goal = on.closest<SVGElement>("[data-goal]")?.dataset.goal;
+  const step = goal === undefined ? undefined : stepIn(part, goal);
+  const onWire = hit === undefined && part ? wireAt(part, event) : null;
+  return { rung: index, place: step ?? onWire ?? (hit === undefined ? [] : hit.split(".").map(Number)) };
+}
+
 /** The place on a wire that is clicked; null for a click that means none. */
-export function wireAt(part: DrawnPart, event: MouseEvent): Place | null {
+function wireAt(part: DrawnPart, event: MouseEvent): Place | null {
   const point = pointIn(part, event);
   return point && placeOnWire(part, point.x, point.y);
 }

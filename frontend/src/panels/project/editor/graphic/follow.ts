@@ -66,6 +66,8 @@ export function follow(pou: Pou, variables: Iterable<string>, paint: (values: Va
       due ||= requestAnimationFrame(now);
     }),
   );
+  // What the cells had at once is painted now, not once more in the next frame.
+  cancelAnimationFrame(due);
   now();
   return () => {
     cancelAnimationFrame(due);

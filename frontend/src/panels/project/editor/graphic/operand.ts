@@ -42,9 +42,15 @@ function writtenAt(part: DrawnPart, place: Place): { name: string; at: number } 
   return element && name !== "" ? { name, at: element.span.at } : null;
 }
 
+/** What the menu does with a variable and no key does. */
+export const FORCE = { true: "Force:TRUE", false: "Force:FALSE", release: "Force:release" };
+
 const KEYS: Record<string, (file: string, path: string, operand: Operand) => void> = {
   "ctrl+alt+w": (_, path) => addToWatch([path]),
   "ctrl+alt+f": (_, path) => void switchForce(path),
+  [FORCE.true.toLowerCase()]: (_, path) => void force(path, path, "TRUE"),
+  [FORCE.false.toLowerCase()]: (_, path) => void force(path, path, "FALSE"),
+  [FORCE.release.toLowerCase()]: (_, path) => void releaseForce(path),
   "shift+f12": (_, path) => showWriter(path),
   "ctrl+alt+r": (file, path, { line, column }) => void showCrossReferences({ file, line, column }, path),
 };

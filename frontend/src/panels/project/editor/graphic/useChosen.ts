@@ -74,6 +74,10 @@ export function useChosen({ path, drawn, readOnly, go, begin, around }: Choosing
     return to !== null;
   }
 
+  const holds = ({ rung, place }: Cursor) =>
+    chosen?.parts.includes(rung) === true &&
+    (chosen.places.length === 0 || chosen.places.some((each) => sameElement(each, place)));
+
   /** A click with Ctrl takes one more, or that one out. */
   function toggle(cursor: Cursor, to: Cursor): void {
     const before: Chosen = chosen ?? { parts: [cursor.rung], places: cursor.place.length > 0 ? [cursor.place] : [] };
@@ -147,5 +151,5 @@ export function useChosen({ path, drawn, readOnly, go, begin, around }: Choosing
     return text;
   }
 
-  return { chosen, clear, extend, byKey, toggle, press, copy, cut };
+  return { chosen, holds, clear, extend, byKey, toggle, press, copy, cut };
 }

@@ -122,7 +122,7 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return made;
   }
 
-  return { named, refused, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
+  return { named, refused, refuse: setRefused, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
 }
 
 /** A part with the text that was just written for it, before it is drawn. */

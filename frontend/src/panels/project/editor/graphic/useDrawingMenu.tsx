@@ -1,0 +1,73 @@
+/** The menu of a drawing, by the right mouse button, by the menu key, or by M: Shift+F10 is a step back. */
+
+import type { KeyboardEvent, MouseEvent } from "react";
+import type { DrawnPart } from "../../../../logic/graphic/sheet";
+import { toggleBreakpointHere } from "../../../../store/debug/debugKeys";
+import { t } from "../../../../text";
+import { useMenu } from "../../../../ui/Menu";
+import { cursorAt } from "./find";
+import { menuOf } from "./menu";
+import type { Cursor } from "./useEditing";
+
+interface Asked {
+  drawn: readonly DrawnPart[];
+  readOnly: boolean;
+  sheet: { current: HTMLElement | null };
+  isChosen: (at: Cursor) => boolean;
+  go: (to: Cursor) => void;
+  /** The id of the element of the cursor. */
+  idOf: (cursor: Cursor) => string;
+  /** What a key does; false where it does nothing. */
+  press: (key: string, at: Cursor) => boolean;
+  /** The text of what is copied or cut; null where there is nothing. */
+  take: (what: "copy" | "cut", at: Cursor) => string | null;
+  paste: (at: Cursor, text: string) => void;
+  /** The browser does not give its clipboard. */
+  onRefused: () => void;
+}
+
+export function useDrawingMenu({ drawn, readOnly, sheet, isChosen, go, idOf, press, ...does }: Asked) {
+  const { open, menu } = useMenu(t("graphic.menu"));
+
+  function show(at: Cursor, point: { x: number; y: number }): void {
+    const items = menuOf(drawn[at.rung], at.place, readOnly, (key) => {
+      // The keys act where the drawing has the focus; a field that opens takes it then.
+      sheet.current?.focus();
+      if (key === "Ctrl+C" || key === "Ctrl+X" || key === "Ctrl+V") clip(key, at).catch(does.onRefused);
+      else if (key === "F9") toggleBreakpointHere();
+      else press(key, at);
+    });
+    if (items.length > 0) open(items, point);
+  }
+
+  /** What a key does by an event of the browser's, which no menu can give. */
+  async function clip(key: "Ctrl+C" | "Ctrl+X" | "Ctrl+V", at: Cursor): Promise<void> {
+    if (key === "Ctrl+V") return does.paste(at, await navigator.clipboard.readText());
+    const text = does.take("copy", at);
+    if (text === null) return;
+    await navigator.clipboard.writeText(text);
+    if (key === "Ctrl+X") does.take("cut", at);
+  }
+
+  function onContextMenu(event: MouseEvent): void {
+    if (event.target instanceof HTMLInputElement) return;
+    event.preventDefault();
+    const at = cursorAt(drawn, event);
+    if (!at) return;
+    // What was chosen stays where the click is in it: the menu is of all that.
+    if (!isChosen(at)) go(at);
+    show(at, { x: event.clientX, y: event.clientY });
+  }
+
+  /** Whether the key opens the menu, at the element of the cursor. */
+  function byKey({ key, shiftKey, ctrlKey, altKey }: KeyboardEvent, cursor: Cursor): boolean {
+    if (key !== "ContextMenu" && (key.toLowerCase() !== "m" || shiftKey || ctrlKey || altKey)) return false;
+    const row = `[data-index="${cursor.rung}"] .netbody`;
+    const element = document.getElementById(idOf(cursor)) ?? sheet.current?.querySelector(row) ?? sheet.current;
+    const box = element?.getBoundingClientRect();
+    if (box) show(cursor, { x: box.left, y: box.bottom });
+    return true;
+  }
+
+  return { menu, onContextMenu, byKey };
+}
