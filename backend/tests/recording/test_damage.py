@@ -138,8 +138,8 @@ def test_a_copy_knows_what_its_original_lost(tmp_path: Path) -> None:
 
 
 def test_what_is_lost_is_known_when_the_file_gets_smaller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = spoilt(tmp_path / "run", Kind.ENTRY, 7)  # made before states come more often
     monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
-    path = spoilt(tmp_path / "run", Kind.ENTRY, 7)
     timeline = resumed(path, limit=60_000)
     chance = random.Random(3)
     while not timeline.recording.info.thinned_before:  # not yet so small that its beginning goes
