@@ -4,10 +4,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
-from scanbench.syntax.plcopen.elements import Pin, Thing
+from scanbench.syntax.plcopen.elements import RESULTS, Pin, Thing
 
-RESULTS = frozenset(("", "OUT", "OUT1", "RESULT"))
-"""How tools name the result of a function."""
 INDENT = "    "
 End = tuple[str, str]
 
@@ -59,9 +57,11 @@ class Diagram:
             elif each.kind == "outVariable" and box is not None and not (each.negated or each.storage or each.edge):
                 ends = [self._end(end) for pin in each.inputs for end in pin.ends if not (pin.negated or pin.edge)]
                 output = box.output(ends[0][1]) if len(ends) == 1 and ends[0][0] == box.id else None
-                if output is not None and not output.negated and self._uses(ends[0]) == 1:
-                    self._taken[ends[0]] = each.name
-                    self._inside.add(each.id)
+                if output is None or self._uses(ends[0]) != 1 or (output.negated and output is result_of(box)):
+                    box = None
+                    continue
+                self._taken[ends[0]] = each.name
+                self._inside.add(each.id)
             elif each.kind != "inVariable":
                 box = None
 
@@ -176,21 +176,19 @@ class Diagram:
             for pin in each.inputs
             if (value := self._input(pin)) not in ("", "???")
         ]
-        result = None if each.instance else next((pin for pin in each.outputs if is_result(each, pin)), None)
+        result = result_of(each)
         after: list[str] = []
         for pin in each.outputs:
             end = (each.id, pin.name)
             if pin is result or any(pin.name == one.name for one in each.inputs):
                 continue
+            name = f"{'NOT ' if pin.negated else ''}{pin.name}"
             if end in self._taken:
-                arguments.append(f"{pin.name} => {self._taken[end]}")
+                arguments.append(f"{name} => {self._taken[end]}")
             elif end in self._used:
-                wire = self._wire(end)
-                arguments.append(f"{pin.name} => {wire}")
-                if pin.negated:
-                    after.append(self._negated(end, wire))
+                arguments.append(f"{name} => {self._wire(end)}")
             elif pin.expression:
-                arguments.append(f"{pin.name} => {pin.expression}")
+                arguments.append(f"{name} => {pin.expression}")
         call = f"{each.instance or each.name}({', '.join(arguments)})"
         taken = "" if result is None else self._taken.get((each.id, result.name), "")
         if taken:
@@ -211,8 +209,12 @@ class Diagram:
         return f"{self._wires[end]} = NOT {wire};"
 
 
-def is_result(each: Thing, pin: Pin) -> bool:
-    return pin.name.upper() in RESULTS or pin.name.upper() == each.name.upper()
+def result_of(each: Thing) -> Pin | None:
+    """The output that is the result of a function: what is named as the function before what tools name so."""
+    if each.instance:
+        return None
+    named = next((pin for pin in each.outputs if pin.name.upper() in ("", each.name.upper())), None)
+    return named or next((pin for pin in each.outputs if pin.name.upper() in RESULTS), None)
 
 
 def formal(name: str) -> str:

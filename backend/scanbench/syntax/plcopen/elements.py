@@ -1,12 +1,13 @@
 """The objects of a graphical body: what each is, what it is connected to, in which order they run."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, number_of, text_of
 
 SOURCES = ("leftPowerRail", "inVariable", "continuation")
 LAST = 1 << 60
+RESULTS = frozenset(("", "OUT", "OUT1", "RESULT"))
+"""How tools name the result of a function."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +43,9 @@ class Thing:
 
     def output(self, named: str) -> Pin | None:
         """The output that a connection means."""
-        if named:
-            return next((each for each in self.outputs if each.name == named), None)
+        exact = next((each for each in self.outputs if each.name == named), None)
+        if named or exact is not None:
+            return exact
         return next(
             (each for each in self.outputs if each.name.upper() != "ENO"), self.outputs[0] if self.outputs else None
         )
@@ -51,10 +53,10 @@ class Thing:
 
 def things_in(body: Element) -> list[Thing]:
     """All objects with a local id, as written."""
-    return [_thing(each, number) for number, each in enumerate(children(body)) if each.get("localId") is not None]
+    return [thing_of(each, number) for number, each in enumerate(children(body)) if each.get("localId") is not None]
 
 
-def _thing(node: Element, number: int) -> Thing:
+def thing_of(node: Element, number: int) -> Thing:
     position = child(node, "position")
     order = attribute(node, "executionOrderId", "0")
     place = (
@@ -111,65 +113,3 @@ def _said(node: Element, name: str) -> str:
 def _ends(point: Element) -> tuple[tuple[str, str], ...]:
     found = children(point, "connection")
     return tuple((attribute(each, "refLocalId"), attribute(each, "formalParameter")) for each in found)
-
-
-def networks_of(things: list[Thing], in_order: bool = False, given: bool = False) -> Iterator[list[Thing]]:
-    """What is connected, as one network each, from top to bottom; a power rail connects nothing. Inside they are in the order in which
-    they run: sources before what they lead to, else by their place. `in_order`: networks do not run in turn. `given`: the file has the
-    whole order, also where a box then reads what an other one had in the scan before."""
-    by_id = {each.id: each for each in things}
-    leader = {each.id: each.id for each in things}
-
-    def find(id: str) -> str:
-        while leader[id] != id:
-            leader[id] = leader[leader[id]]
-            id = leader[id]
-        return id
-
-    rails = {each.id for each in things if each.kind in ("leftPowerRail", "rightPowerRail")}
-    names: dict[str, str] = {}
-    for each in things:
-        if each.kind in ("connector", "continuation"):
-            leader[find(each.id)] = find(names.setdefault(each.name.upper(), each.id))
-        for id in (end for pin in each.inputs for end, _ in pin.ends if end in by_id):
-            if id not in rails and each.id not in rails:
-                leader[find(each.id)] = find(id)
-    groups: dict[str, list[Thing]] = {}
-    for each in things:
-        if each.id not in rails and each.kind not in ("comment", "vendorElement", "error"):
-            groups.setdefault(find(each.id), []).append(each)
-    found = sorted(groups.values(), key=lambda one: min(each.place for each in one))
-    yield from (ordered(group, given) for group in (_apart(found) if in_order else found))
-
-
-def _apart(groups: list[list[Thing]]) -> list[list[Thing]]:
-    """Groups that run in turn are one network: what one writes, the other may read between two of its own boxes."""
-    made: list[list[Thing]] = []
-    for group in groups:
-        last = max((each.place for each in made[-1] if each.kind != "inVariable"), default=None) if made else None
-        if last is not None and min(each.place for each in group) < last:
-            made[-1] += group
-        else:
-            made.append(list(group))
-    return made
-
-
-def ordered(group: list[Thing], given: bool = False) -> list[Thing]:
-    """In the order of execution. Where there is a loop, what is first by its place goes on."""
-    left = sorted(group, key=lambda each: (given and each.place[0] != LAST, each.place))
-    known = {each.id for each in left if not given or each.place[0] == LAST}
-    done: list[Thing] = []
-    seen: set[str] = set()
-    while left:
-        ready = next(
-            (
-                each
-                for each in left
-                if all(end in seen or end not in known for pin in each.inputs for end, _ in pin.ends)
-            ),
-            left[0],
-        )
-        left.remove(ready)
-        seen.add(ready.id)
-        done.append(ready)
-    return done

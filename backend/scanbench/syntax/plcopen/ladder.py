@@ -4,14 +4,19 @@ The objects become edges between points, labelled with text. Points with one edg
 become parallel branches, dead ends become branches of their own; where nothing of this is left to do, a point is cut by links.
 """
 
+import re
 from dataclasses import dataclass, field
+from itertools import combinations
 
-from scanbench.syntax.plcopen.diagram import formal, is_result
+from scanbench.syntax.plcopen.diagram import formal, result_of
 from scanbench.syntax.plcopen.elements import Pin, Thing
+from scanbench.syntax.plcopen.grouping import conflict
 
 RAIL, END = "rail", "end"
 SIGNS = {"EQ": "=", "NE": "<>", "LT": "<", "LE": "<=", "GT": ">", "GE": ">="}
 LADDER = frozenset(("contact", "coil", "block", "inVariable", "outVariable", "jump", "return"))
+_MARK = re.compile("\0(.*?)\1")
+"""The object that the text before it is of, as long as a rung is being made."""
 
 
 class NoLadder(ValueError):
@@ -39,6 +44,8 @@ class Rung:
     _order: dict[str, float] = field(default_factory=dict)
     """Of the points, in the order of execution."""
     _links: int = 0
+    _own: dict[tuple[str, str], list[Thing]] = field(default_factory=dict)
+    """What is in the way from the rail to an input that has contacts of its own, by box and input."""
 
     def elements(self) -> str:
         """The path of the rung; `NoLadder` where it cannot be one."""
@@ -47,14 +54,88 @@ class Rung:
             end in self.rails for each in self.group for pin in each.inputs for end, _ in pin.ends
         ):
             raise NoLadder
-        for number, each in enumerate(self.group):
-            self._add(each, number)
+        self._find_own()
+        self._add_all(self.group)
         self._reduce()
-        return " ".join(self._edges[0].path) if self._edges else ""
+        written = " ".join(self._edges[0].path) if self._edges else ""
+        self._check_order([self._things[id] for id in _MARK.findall(written)])
+        return _MARK.sub("", written)
+
+    def _check_order(self, written: list[Thing]) -> None:
+        """In a rung they run from left to right and from top to bottom: not in their own order, where that matters, it is none."""
+        at = {each.id: number for number, each in enumerate(self.group)}
+        for one, other in combinations(written, 2):
+            if at[one.id] > at[other.id] and conflict(one, other, self.group):
+                raise NoLadder
 
     # ---- objects to edges -------------------------------------------------------------------------------------
 
+    def _find_own(self) -> None:
+        """Of a box with several inputs that get power all but one have contacts of their own, which lead nowhere else. The one is that
+        whose contacts lead elsewhere too, else that whose first contact runs first."""
+        at = {each.id: number for number, each in enumerate(self.group)}
+        for box in (each for each in self.group if each.kind == "block"):
+            pins = [pin for pin in box.inputs if any(self._is_power(end) for end, _ in pin.ends)]
+            ways = {pin.name: self._way(pin) for pin in pins}
+            shared = [pin for pin in pins if not self._leads_only(ways[pin.name], box, pin)]
+            if len(shared) > 1 or len(ways) < len(pins):
+                raise NoLadder
+            if len(pins) > 1:
+                main = (
+                    shared[0]
+                    if shared
+                    else min(pins, key=lambda pin: min((at[one.id] for one in ways[pin.name]), default=-1))
+                )
+                self._own |= {(box.id, pin.name): ways[pin.name] for pin in pins if pin is not main}
+
+    def _way(self, pin: Pin) -> list[Thing]:
+        """What leads from the rail to an input, in the order in which it runs."""
+        found: set[str] = set()
+        left = [end for end, _ in pin.ends]
+        while left:
+            id = left.pop()
+            if id in self._things and id not in found:
+                found.add(id)
+                left += [end for one in self._things[id].inputs for end, _ in one.ends]
+        return [each for each in self.group if each.id in found]
+
+    def _leads_only(self, way: list[Thing], box: Thing, pin: Pin) -> bool:
+        """Whether all of a way leads to this input of the box, and nowhere else."""
+        ids = {each.id for each in way if each.kind != "inVariable"}
+        other = [
+            end for each in self.group if each.id not in ids and each.kind != "outVariable"
+            for one in each.inputs if (each is not box or one is not pin) for end, _ in one.ends
+        ]  # fmt: skip
+        return box.id not in ids and ids.isdisjoint(other)
+
+    def _add_all(self, group: list[Thing]) -> None:
+        """All but what is in an argument of a box of the group."""
+        inside = {each.id for box in group for (id, _), way in self._own.items() if id == box.id for each in way}
+        ids = {each.id for each in group} - inside
+        for number, each in enumerate(self.group):
+            if each.id in ids:
+                self._add(each, number)
+
+    def _branch(self, box: Thing, pin: Pin) -> str:
+        """The contacts of an input, as an argument."""
+        if all(end in self.rails for end, _ in pin.ends):
+            return "TRUE"
+        own = Rung(self.group, self.rails, _things=self._things, _own=self._own)
+        own._add_all(self._own[box.id, pin.name])
+        own._order["pin"] = len(self.group)
+        for end, _ in pin.ends:
+            if not self._is_power(end):
+                raise NoLadder
+            own._edges.append(Edge(RAIL if end in self.rails else f"out {end}", "pin", (), 0))
+        own._reduce()
+        if own._links or own._edges[0].to != "pin":
+            raise NoLadder
+        path = own._edges[0].path
+        return path[0] if len(path) == 1 and path[0].startswith("<") else f"< {' '.join(path)} >"
+
     def _add(self, each: Thing, order: int) -> None:
+        if each.kind == "outVariable" and (each.negated or each.edge or each.storage or not self._of_box(each)):
+            raise NoLadder
         if each.kind in ("inVariable", "outVariable"):
             return
         power = self._power(each)
@@ -62,19 +143,21 @@ class Rung:
         text = self._text(each, power)
         ends = each.kind in ("jump", "return") or not self._goes_on(each)
         to = END if ends else f"out {each.id}"
-        if power is None:
+        if power is None or not all(self._is_power(end) for end, _ in power.ends):
             raise NoLadder
-        self._edges.append(Edge(f"in {each.id}", to, (text,), order))
+        self._edges.append(Edge(f"in {each.id}", to, (f"{text}\0{each.id}\1",), order))
         for end, _ in power.ends:
             start = RAIL if end in self.rails else f"out {end}"
             self._edges.append(Edge(start, f"in {each.id}", (), order))
 
     def _power(self, each: Thing) -> Pin | None:
-        """The input that power comes to; no other input may get any."""
-        found = [pin for pin in each.inputs if any(self._is_power(end) for end, _ in pin.ends)]
-        if len(found) > 1:
-            raise NoLadder
-        return found[0] if found else None
+        """The input that power comes to; an other one has contacts of its own."""
+        found = (pin for pin in each.inputs if any(self._is_power(end) for end, _ in pin.ends))
+        return next((pin for pin in found if (each.id, pin.name) not in self._own), None)
+
+    def _of_box(self, each: Thing) -> bool:
+        ends = [self._things.get(end) for pin in each.inputs for end, _ in pin.ends]
+        return len(ends) == 1 and ends[0] is not None and ends[0].kind == "block"
 
     def _is_power(self, end: str) -> bool:
         thing = self._things.get(end)
@@ -112,25 +195,26 @@ class Rung:
     def _box(self, each: Thing, power: Pin | None) -> str:
         arguments = []
         for pin in each.inputs:
-            if pin.negated or pin.edge or (pin is not power and len(pin.ends) > 1):
+            own = (each.id, pin.name) in self._own
+            if pin.negated or pin.edge or (pin is not power and not own and len(pin.ends) > 1):
                 raise NoLadder
-            value = "~" if pin is power else self._operand(pin)
+            value = "~" if pin is power else self._branch(each, pin) if own else self._operand(pin)
             if value not in ("", "???"):
                 arguments.append(f"{formal(pin.name)} := {value}" if pin.name else value)
         outputs = {output for other, output in self._consumers(each) if other.kind != "outVariable"}
         named = {self._named(each, output) for output in outputs}
-        if len(named) > 1 or any(pin.negated for pin in each.outputs):
+        result = result_of(each)
+        if len(named) > 1 or any(pin.negated and (pin is result or pin.name in named) for pin in each.outputs):
             raise NoLadder
-        result = None if each.instance else next((pin for pin in each.outputs if is_result(each, pin)), None)
         target = ""
         for pin in each.outputs:
             taken = self._taken(each, pin)
             if pin is result:
                 target = taken
             elif taken:
-                arguments.append(f"{pin.name} => {taken}")
+                arguments.append(f"{'NOT ' if pin.negated else ''}{pin.name} => {taken}")
         goes_on = next(iter(named), "")
-        if result is not None and goes_on == result.name:
+        if named and result is not None and goes_on == result.name:
             return self._comparison(each, power)
         call = f"{each.instance or each.name}({', '.join(arguments)})"
         return f"{f'{target} := ' if target else ''}{call}{f'.{goes_on}' if goes_on else ''}"

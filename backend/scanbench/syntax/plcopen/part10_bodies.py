@@ -68,7 +68,7 @@ class _Network:
         label = attribute(self._node, "label")
         if label:
             made = add(self._body, "label", localId=f"{self._number}.label", label=label)
-            add(made, "position", x="0", y=str(top - 1))
+            add(made, "position", x="0", y=str(top - 0.25))
         objects = [(f"{self._number}.{at}", each) for at, each in enumerate(children(self._node, *OBJECTS), 1)]
         for id, each in objects:
             self._outputs(id, each)

@@ -19,7 +19,8 @@ from scanbench.syntax.plcopen.declarations import (
 )
 from scanbench.syntax.plcopen.diagram import Diagram
 from scanbench.syntax.plcopen.document import own_data, parse
-from scanbench.syntax.plcopen.elements import Thing, networks_of, things_in
+from scanbench.syntax.plcopen.elements import Thing, things_in
+from scanbench.syntax.plcopen.grouping import networks_of
 from scanbench.syntax.plcopen.ladder import NoLadder, Rung
 from scanbench.syntax.plcopen.write_objects import text
 from scanbench.syntax.source import Source
@@ -164,20 +165,30 @@ def _networks(body: Element, language: str, read: Read) -> Iterator[str]:
             read.refused = True
     rails = {each.id for each in things if each.kind in ("leftPowerRail", "rightPowerRail")}
     comments = sorted((each for each in things if each.kind == "comment" and each.name), key=lambda each: each.place)
-    label, numbers, types = "", count(1), _types(body)
-    for group in networks_of(things, language == "FBD", attribute(body, "order") == "given"):
-        names = [each.name for each in group if each.kind == "label"]
+    label: Thing | None = None
+    numbers, types = count(1), _types(body)
+    word = "RUNG" if language == "LD" else "NETWORK"
+
+    def head(before: tuple[float, ...]) -> str:
+        """Label and title, of the comments that come before."""
+        nonlocal label
+        said = []
+        while comments and comments[0].place < before:
+            said.append(comments.pop(0).name)
+        written = f" {label.name}:" if label is not None else ""
+        label = None
+        return f"{written} {_title(' '.join(said))}" if said else written
+
+    for group in networks_of(things, language == "LD", attribute(body, "order") == "given"):
         own = [each for each in group if each.kind not in ("label", "unread")]
-        label = names[0] if names else label
-        if not own or not _does_something(own):
-            continue
-        first = min(each.place for each in own)
-        said = [each.name for each in comments if each.place < first]
-        comments = [each for each in comments if each.place >= first]
-        head = f" {label}:" if label else ""
-        head += f" {_title(' '.join(said))}" if said else ""
-        label = ""
-        yield _network(own, rails, head, language, numbers, types, read)
+        for each in (one for one in group if one.kind == "label"):
+            if label is not None:
+                yield f"{word}{head(label.place)}\nEND_{word}\n"
+            label = each
+        if own and _does_something(own):
+            yield _network(own, rails, head(min(each.place for each in own)), language, numbers, types, read)
+    if label is not None:
+        yield f"{word}{head(label.place)}\nEND_{word}\n"
 
 
 def _types(body: Element) -> dict[str, str]:

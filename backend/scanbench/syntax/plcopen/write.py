@@ -163,9 +163,8 @@ def _body(parent: Element, body: object, known: Known) -> None:
 
 
 def _networks(parent: Element, body: NetworkBody, known: Known) -> None:
-    ladder = all(isinstance(each, Rung) for each in body.networks)
-    if not ladder and any(isinstance(each, Rung) for each in body.networks):
-        raise CannotWrite("rungs and block diagrams in one body")
+    # a ladder may have objects of block diagrams between its rungs
+    ladder = not body.networks or any(isinstance(each, Rung) for each in body.networks)
     objects = Objects(add(parent, "LD" if ladder else "FBD"))
     rungs, diagrams = LadderWriter(objects, known), DiagramWriter(objects, known)
     for each in body.networks:

@@ -2,7 +2,7 @@
 
 from scanbench.syntax import networks, tree
 from scanbench.syntax.plcopen.write_ladder import EDGES
-from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, text, uses_wires
+from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, Outputs, is_wire, text, uses_wires
 
 STORED = {":=": "none", "S=": "set", "R=": "reset"}
 Input = tuple[str, list[End], str, bool]
@@ -16,46 +16,63 @@ class DiagramWriter:
         self._known = known
         self._wires: dict[str, tuple[End, bool]] = {}
         """What a wire comes from, and whether it is negated on the way."""
+        self._enabled: set[str] = set()
+        """Boxes that are not called without EN: their wires are FALSE or 0 then, but a variable at the box keeps its value."""
 
     def diagram(self, diagram: networks.Diagram) -> None:
+        try:
+            self._diagram(diagram)
+        except CannotWrite as why:
+            raise why.at(diagram.span) from None
+
+    def _diagram(self, diagram: networks.Diagram) -> None:
         if diagram.off:
             raise CannotWrite("a network that is switched off")
         if any(each.loop for each in diagram.wires):
             raise CannotWrite("a wire that is read above the line that sets it")
         self._objects.next_network()
         self._objects.head(diagram.label, diagram.span)
-        self._wires = {}
-        for item in diagram.items:
-            self._item(item)
+        self._wires, self._enabled = {}, set()
+        leaves: list[tuple[str, list[End]]] = []
+        last = max((number for number, each in enumerate(diagram.items) if each.leave is None), default=-1)
+        for number, item in enumerate(diagram.items):
+            if item.leave is None:
+                self._item(item)
+            else:
+                leaves.append((item.leave.label, self._decided(item, number < last)))
+        for label, ends in leaves:  # decided in their line, taken when all of the network is done
+            _, made = self._objects.make("jump" if label else "return", **({"label": label} if label else {}))
+            self._objects.connect(made, ends)
+
+    def _decided(self, item: networks.Item, early: bool) -> list[End]:
+        """The condition of a jump, which is looked at now: `early`, before other lines."""
+        if item.value is None:
+            return []
+        if isinstance(item.value, networks.Function):
+            return [self._box(item.value, True)]
+        pin = self._input("", item.value)
+        end = self._plain(pin)
+        of_variable = not (pin[2] or pin[3] or is_wire(item.value))
+        return [self._moved(end) if early and of_variable else end]
+
+    def _moved(self, end: End) -> End:
+        id = self._objects.block("MOVE", "", [("IN", [end], "", False)], {"OUT": False})
+        return id, "OUT"
 
     def _item(self, item: networks.Item) -> None:
-        if item.leave is not None:
-            name = item.leave.label
-            pin = (
-                self._input("", item.value)
-                if item.value is not None and not isinstance(item.value, networks.Function)
-                else None
-            )
-            _, made = self._objects.make("jump" if name else "return", **({"label": name} if name else {}))
-            ends = [] if pin is None else [self._plain(pin)]
-            self._objects.connect(made, ends)
-            return
-        wire = (
-            item.target.name
-            if isinstance(item.target, tree.Name) and item.target.name.startswith(networks.WIRE)
-            else ""
-        )
+        wire = item.target.name if is_wire(item.target) else ""
         if isinstance(item.value, networks.Function):
             end = self._box(item.value, item.target is not None)
         elif item.value is not None:
             pin = self._input("", item.value)
-            of_wire = _is_wire(item.value.operand if isinstance(item.value, tree.UnaryOp) else item.value)
+            of_wire = is_wire(item.value.operand if isinstance(item.value, tree.UnaryOp) else item.value)
             if wire and of_wire:
                 self._wires[wire.upper()] = (pin[1][0], pin[3])
                 return
             end = self._plain(pin)
-            if wire and not pin[2]:  # the variable is read now, wherever the wire leads to
-                end = self._objects.block("MOVE", "", [("IN", [end], "", False)], ["OUT"]), "OUT"
+            # the variable is read now, wherever the wire leads to
+            if (wire and not pin[2]) or (not wire and item.operator == ":=" and end[0] in self._enabled):
+                end = self._moved(end)
         else:
             return
         if wire:
@@ -69,7 +86,7 @@ class DiagramWriter:
         if not edge and not negated:
             return ends[0]
         id = self._objects.block(
-            "AND", "", [("IN1", ends, edge, negated), ("IN2", [self._objects.value("TRUE")], "", False)], ["OUT"]
+            "AND", "", [("IN1", ends, edge, negated), ("IN2", [self._objects.value("TRUE")], "", False)], {"OUT": False}
         )
         return id, "OUT"
 
@@ -79,10 +96,10 @@ class DiagramWriter:
             if inner[3]:
                 raise CannotWrite("an edge of a negated value")
             return name, inner[1], EDGES[value.edge.mode], value.negated
-        if isinstance(value, tree.UnaryOp) and value.op == "not" and _is_wire(value.operand):
+        if isinstance(value, tree.UnaryOp) and value.op == "not" and is_wire(value.operand):
             inner = self._input(name, value.operand)
             return name, inner[1], "", not inner[3]
-        if isinstance(value, tree.Name) and _is_wire(value):
+        if isinstance(value, tree.Name) and is_wire(value):
             if value.name.upper() not in self._wires:
                 raise CannotWrite(f"the wire {value.name}, which comes from nothing")
             end, negated = self._wires[value.name.upper()]
@@ -95,28 +112,23 @@ class DiagramWriter:
         callee = text(call.callee)
         block = self._known.types.get(callee.upper(), "")
         inputs: list[Input] = []
-        taken: list[tuple[str, str]] = []
-        wires: list[tuple[str, str]] = []
+        outputs = Outputs()
         count = sum(isinstance(each, networks.Pin) or not each.output for each in call.arguments)
         for number, argument in enumerate(call.arguments):
             if isinstance(argument, networks.Pin):
                 inputs.append(self._input(argument.name or self._known.formal(callee, number, count), argument))
             elif argument.output:
-                value = argument.value
-                if isinstance(value, tree.Name) and _is_wire(value):
-                    wires.append((argument.name or "", value.name))
-                elif value is not None:
-                    taken.append((argument.name or "", text(value)))
+                outputs.take(argument)
             elif argument.value is not None:
                 inputs.append(self._input(argument.name or self._known.formal(callee, number, count), argument.value))
-        outputs = [*(name for name, _ in taken + wires), *(["OUT"] if has_target else [])]
-        id = self._objects.block(block or callee, callee if block else "", inputs, outputs)
-        for name, variable in taken:
+        result = self._known.result(callee)
+        if has_target or (not block and self._known.has_result(callee, outputs)):
+            outputs.negated[result] = False
+        id = self._objects.block(block or callee, callee if block else "", inputs, outputs.negated)
+        if any(name.upper() == "EN" for name, *_ in inputs):
+            self._enabled.add(id)
+        for name, variable in outputs.variables:
             self._objects.result(variable, [(id, name)])
-        for name, wire in wires:
+        for name, wire in outputs.wires:
             self._wires[wire.upper()] = ((id, name), False)
-        return id, "OUT"
-
-
-def _is_wire(value: networks.Pin | networks.Function | tree.Expression) -> bool:
-    return isinstance(value, tree.Name) and value.name.startswith(networks.WIRE)
+        return id, result

@@ -1,7 +1,8 @@
 """A rung -> objects of LD."""
 
 from scanbench.syntax import networks, tree
-from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, text
+from scanbench.syntax.plcopen.grouping import LEAVES
+from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, Outputs, text
 
 EDGES = {"P": "rising", "N": "falling"}
 STORED = {"S": "set", "R": "reset"}
@@ -17,14 +18,24 @@ class LadderWriter:
         self._sent: dict[str, list[End]] = {}
 
     def rung(self, rung: networks.Rung) -> None:
+        try:
+            self._rung(rung)
+        except CannotWrite as why:
+            raise why.at(rung.span) from None
+
+    def _rung(self, rung: networks.Rung) -> None:
         if rung.off:
             raise CannotWrite("a rung that is switched off")
         self._objects.next_network()
         self._objects.head(rung.label, rung.span)
-        if len(rung.path) == 1 and any(isinstance(each, networks.Leave) for each in networks.elements(rung.path)):
-            raise CannotWrite("a jump beside other branches of its rung")
         self._sent = {}
         self._path(rung.path, [self.rail])
+        if any(isinstance(each, networks.Leave) for each in networks.elements(rung.path)):
+            apart = [each for each in self._objects.networks() if any(one.kind != "label" for one in each)]
+            if any(one.kind in LEAVES for each in apart[:-1] for one in each):
+                raise CannotWrite(
+                    "a jump or RETURN before other branches of its rung, which then do not run: give these a rung above"
+                )
 
     @property
     def rail(self) -> End:
@@ -88,30 +99,26 @@ class LadderWriter:
         objects, callee = self._objects, text(each.callee)
         block = self._known.types.get(callee.upper(), "")
         inputs: list[tuple[str, list[End], str, bool]] = []
-        taken: list[tuple[str, str]] = []
-        links: list[tuple[str, str]] = []
+        outputs = Outputs({each.output: False} if each.output else {})
         count = sum(isinstance(one, networks.Branch) or not one.output for one in each.arguments)
         for number, argument in enumerate(each.arguments):
             name = argument.name or self._known.formal(callee, number, count)
             if isinstance(argument, networks.Branch):
                 inputs.append((name, self._path((argument.parallel,), [self.rail]), "", False))
             elif argument.output:
-                value = argument.value
-                if isinstance(value, tree.Name) and value.name.startswith(networks.WIRE):
-                    links.append((name, value.name.removeprefix(networks.WIRE)))
-                elif value is not None:
-                    taken.append((name, text(value)))
+                outputs.take(argument)
             elif isinstance(argument.value, tree.Name) and argument.value.name == networks.POWER:
                 inputs.append((name, power, "", False))
             elif argument.value is not None:
                 inputs.append((name, [objects.value(text(argument.value))], "", False))
-        outputs = list(dict.fromkeys([*([each.output] if each.output else []), *(name for name, _ in taken + links)]))
+        result = self._known.result(callee)
+        if each.result is not None or (not block and self._known.has_result(callee, outputs)):
+            outputs.negated[result] = False
         if each.result is not None:
-            outputs.append("OUT")
-            taken.append(("OUT", text(each.result)))
-        id = objects.block(block or callee, callee if block else "", inputs, outputs)
-        for name, variable in taken:
+            outputs.variables.append((result, text(each.result)))
+        id = objects.block(block or callee, callee if block else "", inputs, outputs.negated)
+        for name, variable in outputs.variables:
             objects.result(variable, [(id, name)])
-        for name, link in links:
-            self._sent[link.upper()] = [(id, name)]
+        for name, link in outputs.wires:
+            self._sent[link.removeprefix(networks.WIRE).upper()] = [(id, name)]
         return [(id, each.output)] if each.output else power

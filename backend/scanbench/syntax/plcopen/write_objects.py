@@ -2,12 +2,15 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import TypeGuard
 
 from lxml import etree
 
 from scanbench.problems import Span
-from scanbench.syntax import tree
+from scanbench.syntax import networks, tree
+from scanbench.syntax.plcopen.elements import RESULTS, Thing, thing_of
+from scanbench.syntax.plcopen.grouping import networks_of
 from scanbench.syntax.source import Stretch
 from scanbench.syntax.xml_tree import Element
 
@@ -24,6 +27,10 @@ _WIRE = re.compile(r"(?<![\w#])#\w")
 
 class CannotWrite(ValueError):
     """What PLCopen has no form for, for people."""
+
+    def at(self, span: Span) -> "CannotWrite":
+        """With its place in the program."""
+        return CannotWrite(f"{self} ({span.file}, line {span.line})")
 
 
 def text(node: tree.Expression | tree.TypeSpec | tree.Initial) -> str:
@@ -49,6 +56,7 @@ class Objects:
     def __init__(self, body: Element) -> None:
         self.body = body
         self._network = 0
+        self._made: list[Element] = []
         self._count = 0
         self._row = 0
         self._column = 0
@@ -56,8 +64,13 @@ class Objects:
     def next_network(self) -> None:
         """What comes now is below all that was there."""
         self._network += 1
+        self._made = []
         self._row = (self._row // NETWORK + 1) * NETWORK if self._count else 0
         self._column = 0
+
+    def networks(self) -> list[list[Thing]]:
+        """The networks that a reader finds in what was made since the last `next_network`."""
+        return list(networks_of([thing_of(each, number) for number, each in enumerate(self._made)], ladder=True))
 
     def local_id(self) -> str:
         """One that no other object of the body has."""
@@ -79,6 +92,7 @@ class Objects:
         id = self.local_id()
         made = add(self.body, kind, localId=id, **attributes)
         made.set(OF_NETWORK, str(self._network))
+        self._made.append(made)
         self._row, self._column = self._row + ROW, self._column + 1
         add(made, "position", x=str(self._column * COLUMN), y=str(self._row))
         return id, made
@@ -107,22 +121,43 @@ class Objects:
         callee: str,
         instance: str,
         inputs: Sequence[tuple[str, Sequence[End], str, bool]],
-        outputs: Sequence[str],
-        id: str = "",
+        outputs: Mapping[str, bool],
     ) -> str:
-        """A box; an input has its name, what leads to it, its edge, and whether it is negated."""
+        """A box; an input has its name, what leads to it, its edge, and whether it is negated; an output its name and whether it is."""
         own, made = self.make("block", typeName=callee, **({"instanceName": instance} if instance else {}))
-        if id:
-            made.set("localId", id)
         pins = add(made, "inputVariables")
         for name, ends, edge, negated in inputs:
             marks = ({"edge": edge} if edge else {}) | ({"negated": "true"} if negated else {})
             self.connect(add(pins, "variable", formalParameter=name, **marks), ends)
         add(made, "inOutVariables")
         pins = add(made, "outputVariables")
-        for name in outputs:
-            add(add(pins, "variable", formalParameter=name), "connectionPointOut")
-        return id or own
+        for name, negated in outputs.items():
+            marks = {"negated": "true"} if negated else {}
+            add(add(pins, "variable", formalParameter=name, **marks), "connectionPointOut")
+        return own
+
+
+@dataclass(slots=True)
+class Outputs:
+    """What takes the outputs of a box: variables and links of the text, by output."""
+
+    negated: dict[str, bool] = field(default_factory=dict)
+    """All outputs of the box."""
+    variables: list[tuple[str, str]] = field(default_factory=list)
+    wires: list[tuple[str, str]] = field(default_factory=list)
+
+    def take(self, argument: tree.Argument) -> None:
+        """`Q => q`, `NOT Q => #q`."""
+        name, value = argument.name or "", argument.value
+        if value is None:
+            return
+        if name in self.negated:
+            raise CannotWrite(f"the output {name} of a box, which is taken twice")
+        self.negated[name] = argument.negated
+        if is_wire(value):
+            self.wires.append((name, value.name))
+        else:
+            self.variables.append((name, text(value)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,12 +169,24 @@ class Known:
     inputs: Mapping[str, tuple[str, ...]]
     """Of functions of the project, by upper-case name."""
 
+    def result(self, function: str) -> str:
+        """What the result of a function is named: as the function itself is, since one of the project may have an output of any name."""
+        return function if function.upper() in self.inputs else "OUT"
+
+    def has_result(self, function: str, outputs: Outputs) -> bool:
+        """Whether the result is written though nothing takes it: an output could be taken for it."""
+        return function.upper() in self.inputs and any(name.upper() in RESULTS for name in outputs.negated)
+
     def formal(self, function: str, number: int, count: int) -> str:
         """The name of an input that the text gives by its place."""
         names = self.inputs.get(function.upper()) or _STANDARD.get(function.upper())
         if names is not None:
             return names[number] if number < len(names) else f"IN{number - 1}"
         return "IN" if count == 1 else f"IN{number + 1}"
+
+
+def is_wire(value: object) -> TypeGuard[tree.Name]:
+    return isinstance(value, tree.Name) and value.name.startswith(networks.WIRE)
 
 
 def uses_wires(expression: tree.Expression) -> bool:

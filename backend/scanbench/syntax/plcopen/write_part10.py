@@ -311,11 +311,14 @@ class _Network:
         made.set("typeName", attribute(node, "typeName"))
         if attribute(node, "instanceName"):
             made.set("instanceName", attribute(node, "instanceName"))
+        outputs = [attribute(each, "formalParameter") for each in children(child(node, "outputVariables"), "variable")]
+        named = next((each for each in outputs if each == attribute(node, "typeName")), "OUT")
+        result = "" if attribute(node, "instanceName") else named
         for group in ("InputVariables", "OutputVariables"):
             own = add(made, group)
             for each in children(child(node, PINS[group]), "variable"):
                 name = attribute(each, "formalParameter")
-                is_result = group == "OutputVariables" and name == "OUT" and not attribute(node, "instanceName")
+                is_result = group == "OutputVariables" and name == result
                 pin = add(own, group.removesuffix("s"), parameterName="" if is_result else name)
                 for word in ("negated", "edge"):
                     if attribute(each, word):

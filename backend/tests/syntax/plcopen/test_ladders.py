@@ -5,7 +5,8 @@ from hypothesis import strategies as st
 
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.syntax.plcopen.elements import Pin, Thing, networks_of
+from scanbench.syntax.plcopen.elements import Pin, Thing
+from scanbench.syntax.plcopen.grouping import networks_of
 from scanbench.syntax.plcopen.ladder import Rung
 from tests.amounts import amount
 from tests.caseformat import MODELS, find, write

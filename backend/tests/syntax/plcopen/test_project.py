@@ -54,7 +54,7 @@ def test_it_runs_on_both_engines_as_it_is_drawn() -> None:
 
 def test_a_ladder_with_values_between_boxes_becomes_a_block_diagram_and_says_so() -> None:
     drawn = LD.replace(b'<connection refLocalId="8"/>', b'<connection refLocalId="12"/>').replace(
-        b"<outVariable", b'<block localId="12" typeName="ADD"><inputVariables><variable formalParameter="IN1">'
+        b"<outVariable", b'<block localId="12" typeName="ADD"><position x="100" y="145"/><inputVariables><variable formalParameter="IN1">'
         b'<connectionPointIn><connection refLocalId="8"/></connectionPointIn></variable><variable formalParameter="IN2">'
         b'<connectionPointIn><connection refLocalId="8"/></connectionPointIn></variable></inputVariables><inOutVariables/>'
         b'<outputVariables><variable formalParameter="OUT"><connectionPointOut/></variable></outputVariables></block><outVariable', 1,
