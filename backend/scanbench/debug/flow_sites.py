@@ -14,7 +14,7 @@ from scanbench.program.program import Assign, Base, Blocks, CallBlock, If, Place
 from scanbench.program.types import Elementary, Record, StringType
 from scanbench.symbols.sites import Sites
 
-_KEPT = re.compile(r"\.\$(POWER\d+|OK\d+|HERE\..+)$")
+_KEPT = re.compile(r"\.\$(POWER\d+|PIN\d+|OK\d+|HERE\..+)$")
 _WIRES = "#", "$WIRE."
 
 

@@ -113,6 +113,10 @@ class Placing:
         column = columns[0]
         if breakpoint.column:
             column = max((each for each in columns if each <= breakpoint.column), default=column)
+            # the name of a box with contacts of its own is in none: these run first, then the box
+            end = max((span.end_line, span.end_column) for span in spans if span.column == column)
+            if end <= (breakpoint.line, breakpoint.column):
+                column = min((each for each in columns if each > breakpoint.column), default=column)
         placed.sites = frozenset(
             each for each, span in zip(found, spans, strict=True) if span.column == column
         )  # fmt: skip

@@ -4,6 +4,7 @@ from scanbench.syntax import networks, parse_diagram, parse_expression, parse_st
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_statement import STOPS
+from scanbench.syntax.source import Stretch
 
 OPERANDS = frozenset((NAME, Lex.ADDRESS))
 MODES = {"[": ("P", "N"), "(": ("S", "R", "P", "N")}
@@ -82,6 +83,10 @@ def network(c: Cursor) -> networks.Rung | networks.Diagram:
         c.depth = depth
         if not _at_network(c, c.at) and not _ended(c) and not c.accept_word("END_RUNG", "END_NETWORK"):
             _skip(c)
+    for at, text in c.pragmas:
+        if c.starts[start] < at < c.end_of(c.at - 1) and _says_off(text):
+            place = Stretch(c.source, at, at + len(text))
+            c.report("S003", f"`{{off}}` switches a whole {kind} off: write it above the word {kind}.", place)
     if kind == "NETWORK":
         return networks.Diagram(label, items, wires, off, head)
     return networks.Rung(label, path, off, head)
@@ -90,7 +95,11 @@ def network(c: Cursor) -> networks.Rung | networks.Diagram:
 def _is_off(c: Cursor) -> bool:
     """Whether the pragma `{off}` is right before the rung."""
     first = c.end_of(c.at - 1) if c.at else 0
-    return any(first <= at < c.starts[c.at] and text[1:-1].strip().lower() == "off" for at, text in c.pragmas)
+    return any(first <= at < c.starts[c.at] and _says_off(text) for at, text in c.pragmas)
+
+
+def _says_off(pragma: str) -> bool:
+    return pragma[1:-1].strip().lower() == "off"
 
 
 # ---- elements -----------------------------------------------------------------------------------------------------

@@ -44,6 +44,59 @@ def test_a_step_in_stops_at_each(tmp_path: Path) -> None:
     assert seen == [(4, 14), (4, 21), (4, 29), (7, 5)]
 
 
+LINES = """\
+PROGRAM Main
+VAR a, q, r : BOOL; n : INT; c : CTU; END_VAR
+NETWORK
+    q := a;
+    q := R_EDGE a;
+    c(CU := R_EDGE a, PV := 3);
+    n := ADD(EN := NOT F_EDGE a, IN1 := n, IN2 := 1);
+    #w = AND(NOT R_EDGE a, q);
+    r S= R_EDGE a;
+    JMP out IF q;
+    r := #w;
+END_NETWORK
+NETWORK out:
+    RETURN IF NOT R_EDGE a;
+END_NETWORK
+END_PROGRAM
+"""
+
+
+def test_a_step_over_comes_to_each_line_of_a_network(tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run", LINES, BUILDS.engine)
+    walker.set(Breakpoint(1, "line", "Ann", file="main.st", line=4, column=5))
+    walker.run()
+    walker.set()
+    seen = [column(walker)]
+    for _ in range(9):
+        walker.step("over")
+        seen.append(column(walker))
+    assert seen == [(line, 5) for line in (4, 5, 6, 7, 8, 9, 10, 11, 14, 4)]
+
+
+BOX = """\
+PROGRAM Main
+VAR on, go, full : BOOL; c : CTU; END_VAR
+RUNG
+    [P on] c(CU := ~, R := < [go] | [N go] >, PV := 3).Q (full)
+END_RUNG
+END_PROGRAM
+"""
+
+
+def test_a_breakpoint_at_the_name_of_a_box_halts_after_the_contact_before_it(tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run", BOX, BUILDS.engine)
+    walker.set(Breakpoint(1, "line", "Ann", file="main.st", line=4, column=BOX.split("\n")[3].index("c(") + 1))
+    walker.run()
+    assert column(walker) == (4, BOX.split("\n")[3].index("[go]") + 1)
+    walker.set(Breakpoint(1, "line", "Ann", file="main.st", line=4, column=BOX.split("\n")[3].index(").Q") + 1))
+    walker.step("scan")
+    walker.step("continue")
+    assert column(walker) == (4, BOX.split("\n")[3].index(").Q") + 1)
+
+
 def column(walker: Walker) -> tuple[int, int]:
     span = walker.halt.span
     assert span is not None

@@ -66,15 +66,15 @@ class FunctionBlocks:
 
     def _condition(self, value: networks.Function | networks.Pin | tree.Expression, span: Span) -> tree.Name:
         assert not isinstance(value, networks.Function)
-        return self._code.note(as_type(self._body, self._plain(value, span), BOOL, "A condition"), span)
+        return self._code.note(as_type(self._body, self._plain(value, span), BOOL, "A condition"), span, "pin")
 
     def _plain(self, value: networks.Pin | tree.Expression, span: Span) -> tree.Expression:
         """The value of a pin; an edge is looked for now, as a part of the line at `span`."""
         if not isinstance(value, networks.Pin):
             return value
-        found = self._code.edge(value.edge, as_type(self._body, value.edge.operand, BOOL, "An edge"), span)
+        found = self._code.edge(value.edge, as_type(self._body, value.edge.operand, BOOL, "An edge"), span, "pin")
         found = fold.unary("not", BOOL, found) if value.negated else found
-        return self._code.note(found, span)
+        return self._code.note(found, span, "pin")
 
     # ---- boxes ------------------------------------------------------------------------------------------------------
 

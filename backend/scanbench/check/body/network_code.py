@@ -86,7 +86,7 @@ class NetworkCode:
         return tree.Name(hidden(self.body, f"${kind}{self._count}", type, span).name, span)
 
     def note(self, value: Expr, span: Span, kind: str = "power") -> tree.Name:
-        """Keeps a BOOL for what comes after it."""
+        """Keeps a BOOL for what comes after it. `power`: of a contact, which a step over skips (`symbols.sites`)."""
         name = self.temporary(kind, BOOL, span)
         self.store(name, value, span)
         return name
@@ -108,10 +108,10 @@ class NetworkCode:
             )
         return tree.Name(self._memories[id(each)], each.span)
 
-    def edge(self, each: networks.Contact, value: Expr, span: Span) -> Expr:
+    def edge(self, each: networks.Contact, value: Expr, span: Span, kind: str = "power") -> Expr:
         """Whether a value rose (P) or fell (N) since the last evaluation; it is looked at once."""
-        memory, now = self.memory(each), self.note(value, span)
-        before = self.note(self.load(memory), span)
+        memory, now = self.memory(each), self.note(value, span, kind)
+        before = self.note(self.load(memory), span, kind)
         self.store(memory, self.load(now), span)
         first, second = (now, before) if each.mode == "P" else (before, now)
         return fold.binary("and", BOOL, self.load(first), fold.unary("not", BOOL, self.load(second)))

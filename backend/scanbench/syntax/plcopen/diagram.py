@@ -1,5 +1,6 @@
 """Connected objects of an FBD, or of a ladder that is none by itself -> the text of a NETWORK, one box a line."""
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -7,6 +8,8 @@ from scanbench.syntax.plcopen import notes
 from scanbench.syntax.plcopen.elements import RESULTS, Pin, Thing
 
 INDENT = "    "
+_NAMED = re.compile(r"[#%]?[\w.]+")
+"""What is looked at for an edge as it is."""
 End = tuple[str, str]
 
 
@@ -125,8 +128,16 @@ class Diagram:
             return pin.expression
         value = values[0] if len(values) == 1 else self._joined(values)
         if pin.edge:
-            value = f"{'R' if pin.edge == 'rising' else 'F'}_EDGE {value}"
+            value = self._edge(pin.edge, value)
         return f"NOT {value}" if pin.negated else value
+
+    def _edge(self, edge: str, value: str) -> str:
+        """Of a variable or a wire; of anything else a wire is made."""
+        if not _NAMED.fullmatch(value) or value in ("TRUE", "FALSE"):
+            wire = f"#w{next(self.numbers)}"
+            self.lines.append(f"{wire} = {value};")
+            value = wire
+        return f"{'R' if edge == 'rising' else 'F'}_EDGE {value}"
 
     def _joined(self, values: list[str]) -> str:
         if "TRUE" in values:
@@ -160,7 +171,7 @@ class Diagram:
     def _assignment(self, each: Thing) -> None:
         value = (self._input(each.inputs[0]) if each.inputs else "") or "FALSE"
         if each.edge:
-            value = f"{'R' if each.edge == 'rising' else 'F'}_EDGE {value}"
+            value = self._edge(each.edge, value)
         if each.negated:
             value = value.removeprefix("NOT ") if value.startswith("NOT ") else f"NOT {value}"
         operator = {"set": "S=", "reset": "R="}.get(each.storage, ":=")

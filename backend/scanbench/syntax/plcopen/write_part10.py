@@ -217,13 +217,12 @@ def _body(parent: Element, node: Element | None) -> None:
         add(made, language).text = text_of(found)
         return
     networks: dict[str, list[Element]] = {}
-    for each in children(found):
-        networks.setdefault(attribute(each, OF_NETWORK), []).append(each)
     rails = {attribute(each, "localId") for each in children(found, "leftPowerRail")}
-    for number, objects in enumerate(networks.values(), 1):
-        own = [each for each in objects if kind(each) != "leftPowerRail"]
-        if own:
-            _Network(made, language, number, own, rails).write()
+    for each in children(found):
+        if kind(each) != "leftPowerRail":
+            networks.setdefault(attribute(each, OF_NETWORK), []).append(each)
+    for number, own in enumerate(networks.values(), 1):
+        _Network(made, language, number, own, rails).write()
 
 
 class _Network:

@@ -1,11 +1,10 @@
 """What is written as PLCopen XML and read again runs as before: the cases of all graphical languages, and a project as a whole."""
 
-from collections.abc import Iterable
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, given, settings
 from lxml import etree
 
 from scanbench.check.build import check_sources
@@ -13,15 +12,14 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.server.samples import templates
 from scanbench.syntax.plcopen.project import read_project
 from scanbench.syntax.plcopen.write import Form, write_project
-from tests.amounts import amount
-from tests.caseformat import MODELS, Case, find, read_cases, run_case, write
-from tests.drawings import charts, diagrams, ladder
-from tests.drawings.draws import of
+from tests.caseformat import MODELS, Case, read_cases, run_case
 
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
 CASES = Path(__file__).parent.parent.parent / "cases"
-GRAPHICAL = [case for topic in ("ladder", "diagrams", "charts") for case in read_cases(CASES / f"{topic}.case")]
 ALL = [case for path in sorted(CASES.glob("*.case")) for case in read_cases(path)]
+DRAWN = re.compile(r"^ *(RUNG|NETWORK|INITIAL_STEP)\b", re.MULTILINE)
+GRAPHICAL = [case for case in ALL if DRAWN.search(case.source) and not case.files and case.violations is None]
+"""Those that name no line of their text."""
 SCHEMA = etree.XMLSchema(etree.parse(Path(__file__).parent / "tc6_xml_v201.xsd"))
 """As PLCopen published it for TC6 2.01; this copy is that of the package plcopen 1.0.1."""
 NOT_WRITTEN = 8
@@ -77,20 +75,6 @@ def test_a_project_is_the_same_text_again() -> None:
     assert read_project(other.data).files == files
 
 
-def after(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> list[list[str]]:
-    """What variables of Main have after each scan."""
-    program = check_sources({"main.st": source}, MODELS["GENERIC-IEC"]).program
-    assert program is not None, source
-    memory = bytearray(program.initial_image)
-    engine, found = ReferenceEngine(program, memory), []
-    for values in sets:
-        for name, value in values.items():
-            write(program, f"Main.{name}", value, memory)
-        engine.run(1)
-        found.append([find(program, f"Main.{name}", memory)[2] for name in names])
-    return found
-
-
 def test_files_are_as_the_schema_says() -> None:
     files = {"this test's own": LINE} | {
         f"{case.name} {number}": write_project("Case", {"case.st": case.source}).data for number, case in enumerate(ALL)
@@ -107,51 +91,6 @@ def against_the_schema(data: bytes) -> str:
     except etree.DocumentInvalid as why:
         return str(why)
     return ""
-
-
-def same(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> None:
-    wanted = after(source, sets, names)
-    for form in Form:
-        written = write_project("Random", {"main.st": source}, form)
-        if form is Form.TC6:
-            assume(not written.left_out)
-            assert against_the_schema(written.data) == ""
-        if not written.left_out:
-            read = "".join(read_project(written.data).files.values())
-            assert after(read, sets, names) == wanted, f"{source}\n{read}"
-
-
-@settings(max_examples=amount(300, 10), deadline=None)
-@given(of(ladder.diagram))
-def test_random_ladders_compute_the_same(made: tuple[str, object, list[dict[str, bool]]]) -> None:
-    source, _, sets = made
-    same(
-        source,
-        [{name: str(value).upper() for name, value in each.items()} for each in sets],
-        ladder.VARIABLES,
-    )
-
-
-@settings(max_examples=amount(300, 10), deadline=None)
-@given(of(diagrams.diagram))
-def test_random_diagrams_compute_the_same(made: tuple[str, object, list[dict[str, int]], list[str]]) -> None:
-    source, _, sets, loops = made
-    assume(not loops)
-    bools, ints = diagrams.BOOLS, diagrams.INTS
-    written = [
-        {name: str(bool(value)).upper() if name in bools else str(value) for name, value in each.items()}
-        for each in sets
-    ]
-    same(source, written, (*bools, *ints))
-
-
-@settings(max_examples=amount(300, 10), deadline=None)
-@given(of(charts.chart))
-def test_random_charts_go_the_same_way(made: tuple[charts.Machine, list[dict[str, int]]]) -> None:
-    machine, sets = made
-    written = [{name: str(bool(value)).upper() for name, value in each.items()} for each in sets]
-    steps = (f"S{number}.{part}" for number in range(len(machine.steps)) for part in "XT")
-    same(charts.text_of(machine), written, [*charts.OUTPUTS, *steps])
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,8 @@ it.each<[string, string | null]>([
   ["#w = R_EDGE a;", null],
   ["#w = AND(EN := a, IN1 := a, IN2 := a);", null],
   ["#w = ADD(n, 1); x S= #w;", null],
+  ["jam(EN := b, IN := a, Q => #w);", null],
+  ["jam(EN := b, IN := a, Q => #w); x := #w;", "475"],
   // The loop has the value of the last evaluation, which is not among the values; where a variable takes it over, it is.
   ["#v = OR(b, #w); #w = AND(#v, a);", null],
   ["#v = OR(b, #w); #w = AND(#v, a); x := #w;", "475"],

@@ -55,7 +55,9 @@ export function wireValues(items: readonly DiagramItem[], read: Read): Map<strin
       const [first] = inputs;
       const value =
         name !== ""
-          ? read(`${callee}.${name}`)
+          ? hasEnable(inputs)
+            ? null
+            : read(`${callee}.${name}`)
           : kind === "box"
             ? resultOf(callee, inputs, pin)
             : first
@@ -66,14 +68,17 @@ export function wireValues(items: readonly DiagramItem[], read: Read): Map<strin
   return values;
 }
 
-/** The result of a function; null where the PLC has to compute it. With EN it is not known whether it was called. */
+/** With EN it is not known whether the box was called: where it was not, its wires are FALSE or 0. */
+const hasEnable = (inputs: DiagramItem["inputs"]) => inputs.some(({ name }) => name.toUpperCase() === "EN");
+
+/** The result of a function; null where the PLC has to compute it. */
 function resultOf(
   callee: string,
   inputs: DiagramItem["inputs"],
   pin: (pin: DiagramPin) => string | null,
 ): string | null {
   const name = callee.toUpperCase();
-  if (inputs.some((input) => input.name.toUpperCase() === "EN")) return null;
+  if (hasEnable(inputs)) return null;
   const values = inputs.map(pin);
   const truths = values.map(truthOf);
   const [first = null, second = null] = values;

@@ -105,6 +105,13 @@ describe("power from values", () => {
     ["< [a] -> #x | [b] > #x (q)", { a: true, b: true }, ["q"]],
     ["< [a] -> #x | [b] > #x (q)", { a: false, b: true }, []],
     ["[a] RETURN", { a: true }, []],
+    ["[a] t(EN := ~, IN := b).Q (q)", { a: false, "t.Q": true }, []],
+    ["[a] t(EN := ~, IN := b).Q (q)", { a: true, "t.Q": true }, ["q"]],
+    ["[P a] t(EN := ~, IN := b).Q (q)", { "t.Q": true }, ["q?"]],
+    ["[a] t(EN := < [b] >, IN := ~).Q (q)", { a: true, "t.Q": true }, ["q?"]],
+    ["[a] t(EN := b, IN := ~).Q (q)", { a: true, b: false, "t.Q": true }, []],
+    ["[a] t(EN := b, IN := ~).ENO (q)", { a: false, b: true }, ["q?"]],
+    ["[a] t(IN := ~).Q (q)", { a: false, "t.Q": true }, ["q"]],
   ])("%s", (body, values, wanted) => {
     expect(reached(body, values)).toEqual(wanted);
   });

@@ -64,9 +64,14 @@ export function powerOf(
   return power;
 }
 
-/** The power after a box: that of its output, if the call says which; the result of a function is known to the PLC only. */
-function after({ callee, result, output }: Box, power: Power, read: (operand: string) => Power): Power {
+/**
+ * The power after a box: that of its output, if the call says which; the result of a function is known to the PLC only. A box that EN
+ * keeps from being called lets none through, whatever its output still has.
+ */
+function after({ callee, result, output, args }: Box, power: Power, read: (operand: string) => Power): Power {
   if (output === null) return power;
-  if (result !== null || output.toUpperCase() === "ENO") return power === false ? false : null;
-  return read(`${callee}.${output}`);
+  const enable = args.find(({ name, out }) => !out && name?.toUpperCase() === "EN");
+  const enabled = !enable || (enable.value === "~" ? power : enable.branch ? null : read(enable.value));
+  if (result !== null || output.toUpperCase() === "ENO") return enabled === false ? false : null;
+  return and(enabled, read(`${callee}.${output}`));
 }
