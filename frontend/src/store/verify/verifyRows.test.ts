@@ -88,6 +88,32 @@ afterEach(() => vi.restoreAllMocks());
 const settled = () => eventually(() => expect(useVerifyRows.getState().count).toBe(server.count));
 
 describe("rows of a verification", () => {
+  it("at the end of the table are all there while more come than an answer has", async () => {
+    const asking = vi.mocked(wire.rows).getMockImplementation() as typeof wire.rows;
+    vi.mocked(wire.rows).mockImplementation(async (...wanted) => {
+      await new Promise((resolve) => setTimeout(resolve)); // of a request that is under way, while the table is drawn
+      server = { ...server, first: Math.max(0, server.count - 3700), count: server.count + 300 };
+      return asking(...wanted);
+    });
+    let filled = false;
+    const holes: number[] = [];
+    const stop = useVerifyRows.subscribe((rows) => {
+      const lines = lineCount(rows);
+      const visible = [...Array(Math.min(40, lines))].map((_, at) => rows.byIndex.has(indexAt(rows, lines - 1 - at)));
+      if (filled && visible.includes(false)) holes.push(rows.count);
+      filled ||= lines > 0 && !visible.includes(false);
+      setTimeout(() => seeLines(Math.max(0, lines - 40), lines, true));
+    });
+    server = { first: 0, count: 11_000, differing: [] };
+    for (let told = 1; told <= 20; told += 1) {
+      const { count } = server;
+      onVerifications([info({ rows: count, forgotten: server.first })]);
+      await eventually(() => expect(useVerifyRows.getState().count).toBeGreaterThanOrEqual(count));
+    }
+    stop();
+    expect([filled, holes]).toEqual([true, []]);
+  });
+
   it("are fetched for the visible lines although earlier differences were dropped", async () => {
     server = { first: 600, count: 1000, differing: [] };
     onVerifications([info({ rows: 1000, forgotten: 600, differing: 3 })]);

@@ -67,12 +67,12 @@ export const lineOfRow = ({ onlyDiffering, differing, first, count }: Rows, inde
 
 const keyOf = ({ kind, id }: VerifySource) => `${kind} ${id}`;
 
-let sight = { from: 0, to: PAGE };
+let sight = { from: 0, to: PAGE, atEnd: false };
 let underWay = false;
 
-/** The visible lines. */
-export function seeLines(from: number, to: number): void {
-  sight = { from, to };
+/** The visible lines; `atEnd`: the last line is among them, and the table goes on with the rows that come. */
+export function seeLines(from: number, to: number, atEnd = false): void {
+  sight = { from, to, atEnd };
   void fetchMissing();
 }
 
@@ -115,7 +115,7 @@ function wantsNews(): { first: number; count: number } | null {
   const rows = get();
   const other = isOther();
   // At the end of the table, new rows come with the same request as the counts.
-  if (!other && !rows.onlyDiffering && sight.to >= lineCount(rows) && shown.info.rows > rows.count)
+  if (!other && goesOnAtEnd(rows) && shown.info.rows > rows.count)
     return { first: Math.max(rows.count, shown.info.rows - PAGE / 2), count: PAGE };
   return { first: firstInSight(), count: other ? PAGE : 0 };
 }
@@ -147,6 +147,14 @@ function firstInSight(): number {
   return Math.max(0, indexAt(rows, Math.min(sight.from, Math.max(0, lineCount(rows) - 1))));
 }
 
+const goesOnAtEnd = ({ onlyDiffering }: Rows) => sight.atEnd && !onlyDiffering;
+
+/** At the end, the table goes on to the last row that has come: the newest are ahead of any answer while rows come fast. */
+function countNow(before: Rows, { first, count, rows }: Answer): number {
+  if (!goesOnAtEnd(before)) return count;
+  return Math.max(first, Math.min(count, Math.max(before.count, (rows.at(-1)?.index ?? -1) + 1)));
+}
+
 type Answer = Awaited<ReturnType<typeof wire.rows>>;
 
 /** False when the answer contained nothing new: do not request again at once, the next message of the server does. */
@@ -155,22 +163,23 @@ function take({ source, info }: ShownVerification, answer: Answer, asked: number
   const { generation } = info;
   const of = keyOf(source);
   const anew = before.of !== of;
+  const other = anew || before.generation !== generation;
+  const count = other ? answer.count : countNow(before, answer);
   const isNew =
-    anew ||
-    before.generation !== generation ||
-    before.count !== answer.count ||
+    other ||
+    before.count !== count ||
     before.first !== answer.first ||
     before.differing.length !== answer.differing.length;
-  const byIndex = new Map(anew || before.generation !== generation ? [] : before.byIndex);
+  const byIndex = new Map(other ? [] : before.byIndex);
   const known = byIndex.size;
   for (const row of answer.rows) byIndex.set(row.index, row);
   for (const index of byIndex.keys()) if (index < answer.first) byIndex.delete(index);
   if (byIndex.size > KEPT)
     for (const index of [...byIndex.keys()]) if (Math.abs(index - asked) > KEPT / 2) byIndex.delete(index);
   // In a verification that is driven scan by scan, a selection of the newest row moves along.
-  const paced = shownNow()?.info.pace !== "free" && answer.count > before.count;
+  const paced = shownNow()?.info.pace !== "free" && count > before.count;
   const goesAlong = paced && before.selected !== null && before.selected === before.count - 1;
-  const selected = anew ? null : goesAlong ? answer.count - 1 : before.selected;
+  const selected = anew ? null : goesAlong ? count - 1 : before.selected;
   set({
     of,
     generation,
@@ -178,7 +187,7 @@ function take({ source, info }: ShownVerification, answer: Answer, asked: number
     // A new array would draw all cells of the table again, although nothing is new.
     columns: sameColumns(before.columns, answer.columns) && !anew ? before.columns : answer.columns,
     first: answer.first,
-    count: answer.count,
+    count,
     differing: answer.differing,
     differed: info.differing,
     selected: selected !== null && selected < answer.first ? null : selected,

@@ -81,7 +81,8 @@ export function Table({ shown }: { shown: ShownVerification }) {
     rangeOf: (range) => defaultRangeExtractor(follow.isOn() ? endOf(range) : range),
   });
   const { from, to } = lines;
-  useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
+  const atEnd = to >= count;
+  useEffect(() => seeLines(from, Math.max(to, from + 40), atEnd), [from, to, atEnd]);
   useHeldPlace(grid, rows.first, rows.onlyDiffering || follow.isOn());
   // biome-ignore lint/correctness/useExhaustiveDependencies: runs when rows are added
   useLayoutEffect(() => {
