@@ -253,6 +253,7 @@ class Session:
                     self.tell(events.ValueWritten(write.path, command.author, entry.scan, False))
         if any(entry.step for entry in entries):
             self.tell(events.WrittenInside(entries[-1].scan))
+        self.forces.on_entries(entries)
         self.errors.on_entries(entries)
         self.log.on_entries(entries)
 

@@ -194,12 +194,22 @@ class DeviceChanged(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class EndedForce(Public):
+    """A force that somebody ended: released, or by a restart or a program that does not keep it."""
+
+    path: str
+    by: str
+
+
+@dataclass(frozen=True, slots=True)
 class ForcesChanged(Public):
     """All forces that hold now, and what they did."""
 
     PUBLIC: ClassVar = "Forces"
 
     forces: tuple[ForcedValue, ...]
+    ended: tuple[EndedForce, ...] = ()
+    """Those that held until then. None of those that only do not hold at the scan of the past that is shown."""
     type: Literal["forces"] = "forces"
 
 

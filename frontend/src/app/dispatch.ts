@@ -136,7 +136,7 @@ function dispatch(message: ServerMessage): void {
       onDraftEdited(message);
       return;
     case "forces":
-      onForces(message.forces);
+      onForces(message.forces, message.ended);
       return;
     case "device":
       onDevice(message.found);

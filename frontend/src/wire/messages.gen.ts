@@ -5132,6 +5132,16 @@ export interface components {
             variable: string;
         };
         /**
+         * EndedForce
+         * @description A force that somebody ended: released, or by a restart or a program that does not keep it.
+         */
+        EndedForce: {
+            /** By */
+            by: string;
+            /** Path */
+            path: string;
+        };
+        /**
          * EnumValue
          * @description A number of an enumeration that has a name.
          */
@@ -5756,6 +5766,11 @@ export interface components {
          * @description All forces that hold now, and what they did.
          */
         Forces: {
+            /**
+             * Ended
+             * @description Those that held until then. None of those that only do not hold at the scan of the past that is shown.
+             */
+            ended: components["schemas"]["EndedForce"][];
             /** Forces */
             forces: components["schemas"]["ForceInfo"][];
             /**

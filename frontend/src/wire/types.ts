@@ -68,6 +68,7 @@ export type FaultShape = Shapes["FaultShape"];
 export type FaultStart = Shapes["FaultStart"];
 export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
+export type EndedForce = Shapes["EndedForce"];
 export type ForceInfo = Shapes["ForceInfo"];
 export type GenerateOne = Shapes["GenerateOne"];
 export type HaltInfo = Shapes["HaltInfo"];

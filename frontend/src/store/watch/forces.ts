@@ -1,7 +1,7 @@
 /** Which variables are forced, by whom, and who wrote last. Paths are compared as in the PLC: case does not matter. */
 
 import { create } from "zustand";
-import type { ForceInfo } from "../../wire/types";
+import type { EndedForce, ForceInfo } from "../../wire/types";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 
@@ -13,11 +13,12 @@ interface WrittenBy {
 /** What a force did in the last scan: it changes all the time, so it is stored separately. */
 type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
-/** A force of yours that somebody else replaced. */
+/** A force of yours that somebody else replaced, or ended. */
 interface Taken {
   path: string;
   by: string;
-  value: string;
+  /** Null: nothing is forced there now. */
+  value: string | null;
   mine: string;
 }
 
@@ -45,8 +46,8 @@ export const useForceValues = create<{ of: ReadonlyMap<string, ForceValues> }>((
 
 const identity = ({ path, through, value, author, scan }: ForceInfo) => [path, through, value, author, scan].join("\n");
 
-/** All active forces, as the PLC reports them. */
-export function onForces(forces: readonly ForceInfo[]): void {
+/** All active forces, as the PLC reports them, and who ended the others. */
+export function onForces(forces: readonly ForceInfo[], ended: readonly EndedForce[] = []): void {
   useForceValues.setState({ of: new Map(forces.map((force) => [force.path, force])) });
   const before = new Set(useForces.getState().held.values());
   if ([...before].map(identity).join("\r") === forces.map(identity).join("\r")) return;
@@ -55,16 +56,26 @@ export function onForces(forces: readonly ForceInfo[]): void {
     // A force on an in-out holds the variable that was passed: both rows are marked.
     for (const path of [force.through, force.path]) if (path) held.set(path.toUpperCase(), force);
   }
-  useForces.setState(({ held: before, taken }) => ({ held, taken: takenNow(before, forces, taken) }));
+  useForces.setState(({ held: before, taken }) => ({ held, taken: takenNow(before, forces, ended, taken) }));
 }
 
-function takenNow(before: Forces["held"], forces: readonly ForceInfo[], known: Forces["taken"]): Forces["taken"] {
+function takenNow(
+  before: Forces["held"],
+  forces: readonly ForceInfo[],
+  ended: readonly EndedForce[],
+  known: Forces["taken"],
+): Forces["taken"] {
   const you = usePlc.getState().you?.name;
   const taken = new Map(known);
   for (const { path, author, value } of forces) {
     const was = before.get(path.toUpperCase());
     if (author === you) taken.delete(path);
     else if (was && was.author === you) taken.set(path, { path, by: author, value, mine: was.value });
+  }
+  for (const { path, by } of ended) {
+    const was = before.get(path.toUpperCase());
+    if (was && was.author === you && by !== you)
+      taken.set(was.path, { path: was.path, by, value: null, mine: was.value });
   }
   return taken;
 }

@@ -2,6 +2,8 @@
 export const watch = {
   "force.column": "Forced",
   "force.count": "{count} forced",
+  "force.ended": "{by} ended your force of {path}. You held it at {mine}.",
+  "force.ended.label": "Your force was ended",
   "force.held": "held by {author}: {value}",
   "force.release": "Release force",
   "force.release.path": "Release force of {path}",

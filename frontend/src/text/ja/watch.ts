@@ -4,6 +4,8 @@ import type { watch as english } from "../en/watch";
 export const watch: Record<keyof typeof english, string> = {
   "force.column": "強制",
   "force.count": "強制 {count}",
+  "force.ended": "{by} が {path} の強制を解除しました。それまではあなたが {mine} に強制していました。",
+  "force.ended.label": "あなたの強制が解除されました",
   "force.held": "{author} が {value} に強制中",
   "force.release": "強制解除",
   "force.release.path": "{path} の強制を解除",

@@ -235,12 +235,40 @@ test("who is at a PLC that somebody deletes is told so, by whom, and is led to a
   expect(screen.queryByRole("alert")).toBeNull();
 });
 
+test("a force of yours that somebody else ends is told; yours that you end, and theirs, are not", async () => {
+  const { server, user } = await openBanners();
+  const force = { through: "", value: "TRUE", scan: 5, before: "", after_program: "", after: "" };
+  const held = () =>
+    server.say({
+      type: "forces",
+      forces: [
+        { ...force, path: "Main.motor", author: "Mika" },
+        { ...force, path: "Main.lamp", author: "Jo" },
+      ],
+      ended: [],
+    });
+  const ended = (by: string) =>
+    server.say({ type: "forces", forces: [], ended: ["Main.motor", "Main.lamp"].map((path) => ({ path, by })) });
+  const banners = () => screen.queryAllByRole("status", { name: t("force.ended.label") });
+  held();
+  ended("Mika");
+  held();
+  server.say({ type: "forces", forces: [], ended: [] }); // at a scan of the past
+  held();
+  ended("Aki");
+  await screen.findByText(t("force.ended", { by: "Aki", path: "Main.motor", mine: "TRUE" }));
+  expect(banners()).toHaveLength(1);
+  await user.click(button(t("force.taken.read")));
+  await waitFor(() => expect(banners()).toEqual([]));
+});
+
 test("a force of yours that somebody else replaces is told, until you have read it or force again", async () => {
   const { server, user } = await openBanners();
   const held = (author: string, value: string) =>
     server.say({
       type: "forces",
       forces: [{ path: "Main.motor", through: "", value, author, scan: 5, before: "", after_program: "", after: "" }],
+      ended: [],
     });
   held("Jo", "TRUE");
   held("Mika", "TRUE");

@@ -112,11 +112,11 @@ test("by keyboard alone: to a row, type, write, force, release, remove, take bac
   await user.keyboard("{F7}");
   await waitFor(() => expect(server.sentOf("force")).toMatchObject([{ path: "start", value: "TRUE" }]));
   const force = { path: "start", through: "", value: "TRUE", author: "Mika", scan: 1000 };
-  server.say({ type: "forces", forces: [{ ...force, before: "", after_program: "", after: "" }] });
+  server.say({ type: "forces", forces: [{ ...force, before: "", after_program: "", after: "" }], ended: [] });
   await screen.findByRole("button", { name: t("force.release.path", { path: "start" }) });
   await user.keyboard("{Shift>}{F7}{/Shift}");
   await waitFor(() => expect(server.sentOf("release")).toMatchObject([{ path: "start" }]));
-  server.say({ type: "forces", forces: [] });
+  server.say({ type: "forces", forces: [], ended: [] });
   await waitFor(() =>
     expect(screen.queryByRole("button", { name: t("force.release.path", { path: "start" }) })).toBeNull(),
   );
@@ -153,6 +153,7 @@ test("the menu says whose force would be replaced", async () => {
       forces: [
         { path: "start", through: "", value: "TRUE", author, scan: 5, before: "", after_program: "", after: "" },
       ],
+      ended: [],
     });
   const hint = t("force.held", { author: "Aki", value: "TRUE" });
   held("Aki");
