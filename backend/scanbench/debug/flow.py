@@ -7,7 +7,7 @@ while nobody looks has nothing of this in it. Drawings of ladders, diagrams and 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, FlowValue
+from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, FlowValue, FlowWire
 from scanbench.debug.flow_sites import FlowSites, flow_sites
 from scanbench.engines.debug import READ, WRITE, DebugEngine, Listen
 from scanbench.program.copies import referred
@@ -43,7 +43,7 @@ class _Noted:
     power: dict[int, bool] = field(default_factory=dict)
     uses: dict[int, dict[tuple[int, int, bool], _Use]] = field(default_factory=dict)
     """Of each site by offset, bits, and whether it is a write: of reads the first one, of writes the last."""
-    wires: dict[str, str] = field(default_factory=dict)
+    wires: dict[tuple[str, int], str] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -253,7 +253,8 @@ class FlowHook:
         if top.noted is not None:
             for each in top.body.wires:
                 at = self._at(top, each.base, each.offset)
-                top.noted.wires[each.name] = format_value(each.type, bytes(self._memory[at : at + each.type.size]))
+                value = bytes(self._memory[at : at + each.type.size])
+                top.noted.wires[each.name, each.line] = format_value(each.type, value)
 
     def _tell(self) -> None:
         """What is listened for from here on."""
@@ -277,12 +278,12 @@ class FlowHook:
             for site in noted.runs
             if site in self._in_sight
         ]
-        wires = {name: text for noted in self._noted.values() for name, text in noted.wires.items()}
+        wires = {key: text for noted in self._noted.values() for key, text in noted.wires.items()}
         call = self._asked.call or self._calls
         return Flow(
             self._scan, self._calls, call if call <= self._calls else 0, self._whole,
             tuple(sorted(found, key=lambda each: (each.line, each.column))),
-            tuple(FlowValue(name, text, True) for name, text in wires.items()),
+            tuple(FlowWire(name, text, line) for (name, line), text in wires.items()),
         )  # fmt: skip
 
     def _element(self, noted: _Noted, site: int) -> FlowElement:

@@ -46,6 +46,16 @@ class FlowElement(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class FlowWire(Public):
+    """A wire of a function block diagram, and what it had."""
+
+    name: str
+    text: str
+    line: int
+    """Where it is set: networks have wires of their own, also of the same name."""
+
+
+@dataclass(frozen=True, slots=True)
 class Flow(Public):
     """One call of the instance in one scan, up to its end or to where the scan is halted."""
 
@@ -58,7 +68,7 @@ class Flow(Public):
     """The scan ran to its end. False: it is halted, and what comes later is not in here."""
     elements: tuple[FlowElement, ...]
     """Those in sight that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so."""
-    wires: tuple[FlowValue, ...] = ()
+    wires: tuple[FlowWire, ...] = ()
     """The wires of the function block diagrams that ran."""
 
 

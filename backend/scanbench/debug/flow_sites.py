@@ -15,7 +15,7 @@ from scanbench.program.types import Elementary, Record, StringType
 from scanbench.symbols.sites import Sites
 
 _KEPT = re.compile(r"\.\$(POWER\d+|PIN\d+|OK\d+|HERE\..+)$")
-_WIRES = "#", "$WIRE."
+_WIRE = "#"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +28,10 @@ class Bit:
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """A wire of a function block diagram, `#low`."""
+    """A wire of a function block diagram, `#low`. Other networks may have one of this name, too."""
 
     name: str
+    line: int
     type: Elementary | StringType
     base: Base
     offset: int
@@ -144,6 +145,5 @@ def _wires(pou: Pou) -> Iterator[Wire]:
     records: tuple[tuple[Record, Base], ...] = (pou.frame, Base.FRAME), (pou.instance, Base.SELF)
     for record, base in records:
         for name, member in record.members.items():
-            if name.startswith(_WIRES) and isinstance(member.type, Elementary | StringType):
-                shown = f"#{name.removeprefix('$WIRE.').removeprefix('#')}"
-                yield Wire(shown, member.type, base, member.offset)
+            if name.startswith(_WIRE) and isinstance(member.type, Elementary | StringType):
+                yield Wire(name.partition("/")[0], member.span.line, member.type, base, member.offset)

@@ -20,7 +20,11 @@ class Differs(Exception):
 
 
 class PairEngine(Engine):
-    """Native on the image given; the reference engine on a copy of it that is made before every scan."""
+    """Native on the image given; the reference engine on an image of its own.
+
+    Before every scan that takes over the state, which was compared, with what was written since. It keeps its own frames, where temporaries are:
+    with those of the native engine, which writes few of them, a temporary that is read before it is written would look the same in both.
+    """
 
     name = "both"
 
@@ -28,6 +32,7 @@ class PairEngine(Engine):
         self.program = program
         self.memory = memory
         self.shadow = bytearray(memory)
+        self._size = program.layout.state_size
         self.native = NativeEngine(program, memory)
         self.reference = ReferenceEngine(program, self.shadow)
 
@@ -47,7 +52,7 @@ class PairEngine(Engine):
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         for _ in range(scans):
             scan = self._scan
-            self.shadow[:] = self.memory
+            self.shadow[: self._size] = self.memory[: self._size]
             stop = self.native.run(1, pace)
             if stop.reason is Reason.INTERRUPTED and self._scan == scan:
                 return stop
@@ -62,7 +67,7 @@ class PairEngine(Engine):
         return int.from_bytes(self.memory[Layout.SCAN : Layout.SCAN + 8], "little")
 
     def _compare(self, scan: int, stop: Stop, other: Stop) -> None:
-        size = self.program.layout.state_size
+        size = self._size
         if stop != other:
             raise Differs(scan, "the end of the scan", self._say(stop), self._say(other))
         if self.memory[:size] != self.shadow[:size]:

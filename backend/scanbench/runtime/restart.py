@@ -18,6 +18,7 @@ from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, R
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
 from scanbench.runtime.modes import held, started
+from scanbench.syntax.chart import STEP
 
 Image = bytes | bytearray | memoryview
 
@@ -124,8 +125,8 @@ def _members(record: Record, offset: int, retained: bool, cold: bool) -> Iterato
 
 def _value(type: Type, offset: int, own: bool, retained: bool, cold: bool) -> Iterator[tuple[int, int]]:
     if isinstance(type, Record) and type.kind is Kind.BLOCK:
-        # a block inside of a retained one behaves as its own type says (IEC 61131-3, 6.5.6)
-        yield from _members(type, offset, retained and own, cold)
+        # a block inside of a retained one behaves as its own type says (IEC 61131-3, 6.5.6); a step is a part of its chart
+        yield from _members(type, offset, retained and (own or type.name == STEP), cold)
     elif isinstance(type, ArrayType) and isinstance(type.element, Record | ArrayType):
         for index in range(type.count):
             yield from _value(type.element, offset + index * type.element.size, own, retained, cold)

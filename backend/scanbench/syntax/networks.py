@@ -9,7 +9,7 @@ from scanbench.syntax.tree import node
 POWER = "~"
 """The value of an argument that takes the power that comes in, as the name of a `tree.Name`."""
 WIRE = "#"
-"""Begins the name of a `tree.Name` that means a link."""
+"""Begins the name of a `tree.Name` that means a wire or link of its network."""
 
 
 @node
@@ -126,7 +126,8 @@ class Item:
 
 @node
 class Wire:
-    """`#name : type`; `loop`: it is read above the line that sets it, so that it keeps its value from one evaluation to the next."""
+    """`#name : type = value`, or `output => #name`; `loop`: it is read above the line that sets it, so that it keeps its value from
+    one evaluation to the next."""
 
     name: str
     type: tree.TypeSpec | None
@@ -154,6 +155,13 @@ class NetworkBody:
     """The name of the POU: its heirs have memories of their own."""
 
 
+def wire_at(argument: tree.Argument) -> tree.Name | None:
+    """The wire that an output goes to."""
+    value = argument.value
+    is_wire = argument.output and isinstance(value, tree.Name) and value.name.startswith(WIRE)
+    return value if is_wire and isinstance(value, tree.Name) else None
+
+
 def elements(path: Path) -> Iterator[Element]:
     """All of a path, those inside of others as well; what is inside of an argument comes before its box."""
     for each in path:
@@ -179,6 +187,17 @@ def edges(body: NetworkBody) -> Iterator[tuple[Contact | Coil, str]]:
                 yield each, f"{key}.{counts[key]}"
 
 
+def loops(body: NetworkBody) -> Iterator[tuple[Wire, str]]:
+    """The wires that keep their values, with the names of their variables: `#LOW/MAIN.1`, as for edges."""
+    counts: dict[str, int] = {}
+    for network in body.networks:
+        for each in network.wires if isinstance(network, Diagram) else ():
+            if each.loop:
+                key = f"{each.name}/{body.owner}".upper()
+                counts[key] = counts.get(key, 0) + 1
+                yield each, f"{key}.{counts[key]}"
+
+
 def _pins(diagram: Diagram) -> Iterator[Contact]:
     """The edges of a diagram, in the order in which they are looked for."""
     for item in diagram.items:
@@ -193,9 +212,8 @@ def memories(body: NetworkBody) -> tuple[tree.VariableSection, ...]:
     found = tuple(
         tree.Variable(name, tree.NamedType("BOOL", each.span), None, None, each.span) for each, name in edges(body)
     )
-    wires = [each for network in body.networks if isinstance(network, Diagram) for each in network.wires if each.loop]
     found += tuple(
-        tree.Variable(each.name, each.type or tree.NamedType("BOOL", each.span), None, None, each.span)
-        for each in wires
+        tree.Variable(name, each.type or tree.NamedType("BOOL", each.span), None, None, each.span)
+        for each, name in loops(body)
     )
     return (tree.VariableSection("VAR", (), found, body.span),) if found else ()

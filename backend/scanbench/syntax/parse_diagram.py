@@ -24,7 +24,9 @@ def items(c: Cursor, ended: str) -> tuple[tuple[networks.Item, ...], tuple[netwo
         depth, before = c.depth, c.at
         c.wires = set()
         try:
-            found.append(_item(c, wires, read))
+            item = _item(c, wires, read)
+            found.append(item)
+            wires += _of_outputs(item, read)
             c.close(";", "at the end of the line")
         except Unexpected:
             c.depth = depth
@@ -32,6 +34,17 @@ def items(c: Cursor, ended: str) -> tuple[tuple[networks.Item, ...], tuple[netwo
         finally:
             c.wires = None
     return tuple(found), tuple(wires)
+
+
+def _of_outputs(item: networks.Item, read: set[str]) -> list[networks.Wire]:
+    """The wires that outputs of a box set."""
+    arguments = item.value.arguments if isinstance(item.value, networks.Function) else ()
+    outputs = (networks.wire_at(each) for each in arguments if isinstance(each, tree.Argument))
+    return [
+        networks.Wire(each.name, None, each.name.removeprefix(networks.WIRE).upper() in read, each.span)
+        for each in outputs
+        if each is not None
+    ]
 
 
 def _skip(c: Cursor, before: int, ended: str) -> None:
@@ -116,7 +129,7 @@ def _box(c: Cursor) -> networks.Function | None:
     """A call that is all of a line; None where something else is there, or it goes on."""
     start, depth, problems, wires = c.at, c.depth, len(c.problems), set(c.wires or ())
     form = c.texts[start] in FUNCTION_FORMS
-    if c.kinds[start] is not NAME and not form:
+    if (c.kinds[start] is not NAME and not form) or (c.word() in EDGES and operand_follows(c, start)):
         return None
     c.take()
     name = tree.Name(c.texts[start], c.span_of(start))
@@ -153,9 +166,21 @@ def _argument(c: Cursor) -> tree.Argument | networks.Pin:
             return value
         return tree.Argument(c.texts[start], False, value, c.span_from(start), place=c.span_of(start))
     if (c.kinds[start] is NAME or c.is_("NOT")) and "=>" in c.texts[start + 1 : start + 3]:
-        return parse_expression.argument(c)
+        read = set(c.wires or ())
+        output = parse_expression.argument(c)
+        if networks.wire_at(output) is not None:
+            c.wires = read  # it is set here
+        return output
     value = _pin(c, None, start)
     return value if isinstance(value, networks.Pin) else tree.Argument(None, False, value, value.span)
+
+
+def operand_follows(c: Cursor, at: int) -> bool:
+    """Whether what comes after `P` or `R_EDGE` begins an operand, so that this is no name: `[P(x)]` is a call, `[P (x OR y)]` an edge."""
+    after = at + 1
+    if c.texts[after] == "(":
+        return c.starts[after] > c.end_of(at)
+    return c.kinds[after] in STARTS or c.texts[after] in ("NOT", "TRUE", "FALSE", "THIS", "SUPER")
 
 
 def _pin(c: Cursor, name: str | None, start: int) -> networks.Pin | tree.Expression:
@@ -164,7 +189,7 @@ def _pin(c: Cursor, name: str | None, start: int) -> networks.Pin | tree.Express
     negated = c.is_("NOT") and c.word(1) in EDGES
     at = first + 1 if negated else first
     edge = EDGES.get(c.texts[at].upper()) if c.kinds[at] is NAME else None
-    if edge is None or (c.kinds[at + 1] not in STARTS and c.texts[at + 1] != "#"):
+    if edge is None or not (c.texts[at + 1] == "#" or operand_follows(c, at)):
         return parse_expression.expression(c)
     c.at = at + 1
     operand = parse_expression.operand(c)

@@ -6,7 +6,6 @@ from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_statement import STOPS
 from scanbench.syntax.source import Stretch
 
-OPERANDS = frozenset((NAME, Lex.ADDRESS))
 MODES = {"[": ("P", "N"), "(": ("S", "R", "P", "N")}
 
 
@@ -149,7 +148,7 @@ def _operand(c: Cursor, opening: str, closing: str, what: str) -> tuple[str, tre
     mode = ""
     if c.accept("/"):
         mode = "/"
-    elif c.word() in MODES[opening] and c.kinds[c.at + 1] in OPERANDS:
+    elif c.word() in MODES[opening] and parse_diagram.operand_follows(c, c.at):
         mode = c.word()
         c.take()
     first = c.at
@@ -178,7 +177,7 @@ def _box(c: Cursor) -> networks.Box:
     start, result = c.at, None
     callee = _variable(c)
     if c.accept(":="):
-        result, callee = callee, _variable(c)
+        result, callee = callee, _callee(c)
     if not c.is_("("):
         raise c.fail("`(` expected: a box is a call, and a variable belongs in `[ ]` or `( )`")
     arguments = parse_diagram.in_box(c, _argument)
@@ -189,6 +188,14 @@ def _box(c: Cursor) -> networks.Box:
     return networks.Box(result, callee, arguments, output, c.span_from(start), c.span_from(closing))
 
 
+def _callee(c: Cursor) -> tree.Expression:
+    """What a result is taken from: also AND and its like."""
+    if c.texts[c.at] not in parse_expression.FUNCTION_FORMS:
+        return _variable(c)
+    at = c.take()
+    return tree.Name(c.texts[at], c.span_of(at))
+
+
 def _variable(c: Cursor) -> tree.Expression:
     at = c.name("the name of a block or function")
     return parse_expression.postfix(c, tree.Name(c.texts[at], c.span_of(at)), calls=False)
@@ -196,10 +203,12 @@ def _variable(c: Cursor) -> tree.Expression:
 
 def _argument(c: Cursor) -> tree.Argument | networks.Branch:
     start = c.at
-    named = c.kinds[start] is NAME and c.texts[start + 1] in (":=", "=>")
-    value = start + 2 if named else start
-    name, place = (c.texts[start], c.span_of(start)) if named else (None, None)
-    output = named and c.texts[start + 1] == "=>"
+    negated = c.is_("NOT") and c.texts[start + 2] == "=>"
+    first = start + negated
+    named = c.kinds[first] is NAME and c.texts[first + 1] in (":=", "=>")
+    value = first + 2 if named else start
+    name, place = (c.texts[first], c.span_of(first)) if named else (None, None)
+    output = named and c.texts[first + 1] == "=>"
     if c.texts[value] == networks.POWER:
         c.at = value + 1
         return tree.Argument(name, False, tree.Name(networks.POWER, c.span_of(value)), c.span_from(start), place=place)
@@ -207,8 +216,9 @@ def _argument(c: Cursor) -> tree.Argument | networks.Branch:
         c.at = value + 1
         wire = c.name("the name of a link")
         return tree.Argument(
-            name, True, tree.Name(networks.WIRE + c.texts[wire], c.span_of(wire)), c.span_from(start), place=place
-        )
+            name, True, tree.Name(networks.WIRE + c.texts[wire], c.span_of(wire)), c.span_from(start),
+            negated=negated, place=place,
+        )  # fmt: skip
     if c.texts[value] == "<" and name is not None and not output:
         c.at = value
         return networks.Branch(name, _parallel(c), c.span_from(start))

@@ -6,7 +6,7 @@ A drawing shows A beside A' where the two differ, and marks the element that dif
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, FlowValue
+from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, FlowValue, FlowWire
 from scanbench.debug.flow_sites import FlowSites, Wire, flow_sites
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Base
@@ -45,7 +45,7 @@ class _Call:
         """By offset: where an output of a box was copied to, which is no use of its own. Who reads it next tells of the power."""
         self.calls = 0
         self.elements: dict[int, _Noted] = {}
-        self.wires: dict[str, str] = {}
+        self.wires: dict[tuple[str, int], str] = {}
 
     def read(self, names: NamesInside, log: Sequence[Access], frames: Sequence[tuple[Frame, ...]]) -> None:
         """Reads the record, use by use. `frames`: the open calls at each use."""
@@ -70,7 +70,7 @@ class _Call:
     def _note_wire(self, access: Access) -> None:
         for wire, offset in self._wires if access.written else ():
             if access.offset == offset and access.size == wire.type.size:
-                self.wires[wire.name] = format_value(wire.type, access.value)
+                self.wires[wire.name, wire.line] = format_value(wire.type, access.value)
 
     def _note_due(self, access: Access) -> None:
         due = self._due.get(access.offset)
@@ -134,7 +134,7 @@ def flows_of(both: Both, call: int, asked: FlowAsked) -> VerifyFlows:
             for site, each in seen.elements.items()
         ]  # fmt: skip
         found.sort(key=lambda each: (each.line, each.column))
-        wires = tuple(FlowValue(name, text, True) for name, text in seen.wires.items())
+        wires = tuple(FlowWire(name, text, line) for (name, line), text in seen.wires.items())
         flow = Flow(scan, seen.calls, seen.calls, True, tuple(found), wires)
         return Flows(file, version, (flow,))
 

@@ -14,7 +14,7 @@ from scanbench.check.task_infos import TaskInfo, TaskProgram
 from scanbench.debug.assign import Assign
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
-from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, FlowValue
+from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, FlowValue, FlowWire
 from scanbench.debug.halt import Halt, Left
 from scanbench.debug.set_value import SetLocal
 from scanbench.faults.absent import GenerateAbsent
@@ -133,7 +133,7 @@ _CLASSES: dict[str, type] = {
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,
         debug_protocol.Stack, debug_protocol.WantTasks, debug_protocol.Tasks, debug_protocol.ScopeInfo, debug_protocol.Scopes, debug_protocol.VariableInfo,
         debug_protocol.Variables, debug_protocol.Evaluated, debug_protocol.PlaceInfo, debug_protocol.Places,
-        Flow, FlowAsked, FlowElement, Flows, FlowValue, debug_protocol.FlowIs, debug_protocol.WantFlow,
+        Flow, FlowAsked, FlowElement, Flows, FlowValue, FlowWire, debug_protocol.FlowIs, debug_protocol.WantFlow,
         Bound, BoundTo, debug_protocol.BindingIs, CoveredOutcome, CoveredSite, CoveredFile,
         debug_protocol.Coverage, debug_protocol.CoverageIs,
         TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,

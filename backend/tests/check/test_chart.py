@@ -23,6 +23,18 @@ WRONG = [
     ("STEP One:\nEND_STEP", "T010", 3, "there is none"),
     (AB + "INITIAL_STEP C1:\nEND_STEP", "D001", 8, "`One` is the initial step already"),
     (AB + "TRANSITION FROM Two TO Gone := c; END_TRANSITION", "T001", 8, "There is no step `Gone`"),
+    (
+        AB + "TRANSITION FROM Two TO One : RUNG\n< [c] JMP gone | [c] >\nEND_RUNG END_TRANSITION",
+        "T010",
+        9,
+        "a jump or RETURN in it",
+    ),
+    (
+        AB + "TRANSITION FROM Two TO One : RUNG\n< [c] RETURN | [c] >\nEND_RUNG END_TRANSITION",
+        "T010",
+        9,
+        "a jump or RETURN in it",
+    ),
     (AB + "STEP C1:\nEND_STEP", "W001", 8, "Nothing leads to the step `C1`"),
     (AB + "STEP One:\nEND_STEP", "D001", 8, "`One`"),
     (with_action("b(L);"), "S003", 4, "L needs a duration: `b(L, T#1s)`"),
@@ -39,7 +51,7 @@ WRONG = [
     (AB + "b := c;", "S003", 8, "STEP, INITIAL_STEP, TRANSITION or ACTION expected"),
     (with_action("Act(N);") + "ACTION Act: One.X := TRUE; END_ACTION", "T003", 9, "`X` is an output"),
     (
-        AB + "TRANSITION FROM Two TO One : RUNG\n[b] JMP a\nEND_RUNG END_TRANSITION",
+        AB + "TRANSITION FROM Two TO One : RUNG\n[b] -> #a\nEND_RUNG END_TRANSITION",
         "T010",
         8,
         "A condition is the power",

@@ -216,8 +216,8 @@ NETWORK
     RETURN IF NOT auto;
 END_NETWORK
 NETWORK
-    #late = GT(x, 5);
-    y S= #late;
+    #low = GT(x, 5);
+    y S= #low;
 END_NETWORK
 END_FUNCTION_BLOCK
 PROGRAM Main
@@ -225,7 +225,7 @@ VAR a, b : Ramp; END_VAR
 a(auto := TRUE, x := 7);
 b(auto := FALSE, x := 3);
 END_PROGRAM
-""".replace("    y S= #late;\n", "    auto S= #late;\n")
+""".replace("    y S= #low;\n", "    auto S= #low;\n")
 
 
 @ENGINES
@@ -233,8 +233,8 @@ def test_wires_have_what_they_had(make: MakeDebug) -> None:
     resource = resource_of(checked(DIAGRAM), make)
     ran(resource)
     flow = ran(resource, FlowAsked("Ramp", "Main.a"))
-    wires = {each.name: each.text for each in flow.wires}
-    assert wires == {"#LOW": "6", "#HIGH": "7", "#LATE": "TRUE", "#LOOP": "2"}
+    wires = {(each.name, each.line): each.text for each in flow.wires}
+    assert wires == {("#LOW", 5): "6", ("#HIGH", 6): "7", ("#LOW", 12): "TRUE", ("#LOOP", 8): "2"}
     assert (at(flow, 7).power, said(flow, 7)["y"]) == (True, "7")
     flow = ran(resource, FlowAsked("Ramp", "Main.b"))
     assert at(flow, 7).power is False

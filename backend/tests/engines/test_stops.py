@@ -57,6 +57,18 @@ def test_a_condition_ends_every_run_until_it_is_taken_away(make: Callable[[Progr
     assert (engine.run(10), scan(memory)) == (Stop(Reason.DONE), 26)
 
 
+def test_both_keeps_the_temporaries_of_the_engines_apart() -> None:
+    program = check(
+        "FUNCTION F : DINT VAR a, b : DINT; END_VAR a := 1; b := 2; F := a + b; END_FUNCTION\n"
+        "PROGRAM Main VAR n : DINT; END_VAR n := n + 1; IF n < 0 THEN n := F(); END_IF; END_PROGRAM"
+    )
+    assert program.layout.size > program.layout.state_size
+    pair = PairEngine(program, bytearray(program.initial_image))
+    pair.memory[-1], pair.shadow[-1] = 9, 7  # in the frame of F, which is not called
+    assert pair.run(3) == Stop(Reason.DONE)
+    assert (pair.memory[-1], pair.shadow[-1]) == (9, 7)
+
+
 @engines
 def test_a_condition_that_holds_after_the_last_scan_is_told(make: Callable[[Program, bytearray], Engine]) -> None:
     program = check(COUNT)

@@ -189,3 +189,31 @@ def test_an_instance_of_a_program_can_be_retained(engine: EngineFactory) -> None
     resource.run(4)
     done(resource, Restart("Ada", "warm"))
     assert [value(resource, path) for path in ("a.n", "b.n", "c.n", "a.z")] == [4, 0, 0, 0]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("kind", ["warm", "power"])
+def test_a_chart_that_is_retained_goes_on_where_it_was(engine: EngineFactory, kind: RestartKind) -> None:
+    resource = plc(
+        """FUNCTION_BLOCK Press
+VAR_OUTPUT n : INT; END_VAR
+INITIAL_STEP Up: END_STEP
+STEP Down: Count(N); END_STEP
+TRANSITION FROM Up TO Down := TRUE; END_TRANSITION
+TRANSITION FROM Down TO Up := Down.T >= T#50ms; END_TRANSITION
+ACTION Count: n := n + 1; END_ACTION
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR RETAIN kept : Press; END_VAR
+VAR lost : Press; END_VAR
+kept(); lost();
+END_PROGRAM""",
+        engine,
+    )
+    resource.run(4)
+    done(resource, Restart("Ada", kind))
+    resource.run(1)
+    shown = [f"Main.{name}.{what}" for name in ("kept", "lost") for what in ("Up.X", "Down.X", "n")]
+    assert [value(resource, path) for path in shown] == [False, True, 4, False, True, 0]
+    resource.run(2)
+    assert [value(resource, path) for path in shown] == [True, False, 6, False, True, 2]

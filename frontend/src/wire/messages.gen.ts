@@ -5621,7 +5621,7 @@ export interface components {
              * Wires
              * @description The wires of the function block diagrams that ran.
              */
-            wires: components["schemas"]["FlowValue"][];
+            wires: components["schemas"]["FlowWire"][];
         };
         /**
          * FlowElement
@@ -5693,6 +5693,21 @@ export interface components {
             text: string;
             /** Written */
             written: boolean;
+        };
+        /**
+         * FlowWire
+         * @description A wire of a function block diagram, and what it had.
+         */
+        FlowWire: {
+            /**
+             * Line
+             * @description Where it is set: networks have wires of their own, also of the same name.
+             */
+            line: number;
+            /** Name */
+            name: string;
+            /** Text */
+            text: string;
         };
         /**
          * Force

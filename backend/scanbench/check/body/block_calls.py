@@ -9,7 +9,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.counting import lent_counter
 from scanbench.check.body.direct import as_argument
 from scanbench.check.body.dispatch import Dispatcher
-from scanbench.check.body.enabling import condition_of, enabling, given_enable, store_eno
+from scanbench.check.body.enabling import condition_of, enabling, given_enable, store_eno, without_call
 from scanbench.check.body.notes import note_of
 from scanbench.check.body.objects import named_itself, own
 from scanbench.check.body.receivers import Receiver, is_own_property, receiver_of
@@ -57,7 +57,8 @@ def call_block(body: Body, node: tree.Call) -> Stmt:
         statements.append(store_eno(body, ok, apart.eno))
     if condition is None:
         return together(statements, node.span)
-    skipped: list[Stmt] = [Assign(place, Const(BOOL, 0), node.span) for place in told.values()]
+    skipped = without_call(body, given)
+    skipped += [Assign(place, Const(BOOL, 0), node.span) for place in told.values()]
     if apart.eno is not None:
         skipped.append(store_eno(body, Const(BOOL, 0), apart.eno))
     return If(((condition, tuple(statements)),), tuple(skipped), node.span)

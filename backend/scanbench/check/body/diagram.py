@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from scanbench.check.body import fold
 from scanbench.check.body.coercion import as_type
-from scanbench.check.body.enabling import enabling
-from scanbench.check.body.il_operands import hidden, type_of
+from scanbench.check.body.enabling import enabling, told
+from scanbench.check.body.il_operands import type_of
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
@@ -27,27 +27,25 @@ class FunctionBlocks:
         self._report = code.report
         self._wires: dict[str, networks.Wire] = {}
         """Those of the network, by name in upper case."""
-        self._known: dict[str, Span] = {}
-        """All of the body: a name means one wire."""
 
     def diagram(self, diagram: networks.Diagram) -> None:
         self._wires = {}
         for wire in diagram.wires:
             key = wire.name.upper()
-            if key in self._known:
-                self._report.error(
-                    "D001", f"`{wire.name}` is a wire of line {self._known[key].line} already; rename one.", wire.span
-                )
-            self._known.setdefault(key, wire.span)
+            if key in self._wires:
+                line = self._wires[key].span.line
+                self._report.error("D001", f"`{wire.name}` is a wire of line {line} already; rename one.", wire.span)
+                continue
             self._wires[key] = wire
-            if wire.loop and (self._body.pou is None or self._body.pou.kind not in ("program", "function_block")):
+            if wire.loop and not self._code.loop(wire):
+                self._body.unmade.add(key)
                 self._report.error(
                     "T010",
                     f"`{wire.name}` is read above its line, so it keeps its value, and a FUNCTION or METHOD keeps nothing; "
                     f"move the line up.",
                     wire.span,
                 )
-        set_here = {each.target.name.upper() for each in diagram.items if isinstance(each.target, tree.Name)}
+        set_here = {wire for item in diagram.items for wire in _wires_of(item)}
         self._body.unmade.update(self._wires.keys() - set_here)
         for item in diagram.items:
             try:
@@ -89,7 +87,7 @@ class FunctionBlocks:
             own = replace(apart, eno=tree.Argument("ENO", True, ok, item.span))
             self._code.enabled_result(item.target, own, ok, item.span)
             if apart.eno is not None and apart.eno.value is not None:
-                self._code.run(tree.Assignment(apart.eno.value, ok, apart.eno.span))
+                self._code.run(tree.Assignment(apart.eno.value, told(apart.eno, ok), apart.eno.span))
         else:
             self._set(item, call)
 
@@ -97,13 +95,21 @@ class FunctionBlocks:
         if isinstance(each, networks.Pin):
             return tree.Argument(each.name, False, self._plain(each, span), each.span)
         if each.output and isinstance(each.value, tree.Name) and each.value.name.startswith(networks.WIRE):
-            type = self._output(callee, each.name or "")
+            type, name = self._output(callee, each.name or ""), each.value.name
+            wire = self._wires.get(name.upper())
             if type is None:
                 raise self._report.reject(
-                    "T010", f"The type of `{each.value.name}` is not known here; write `{each.value.name} = ...` below the call.",
+                    "T010", f"The type of `{name}` is not known here; write `{name} = ...` below the call.", each.span
+                )
+            if wire is None or not wire.loop:
+                self._code.wire(name, type, each.span)
+            elif type != BOOL:
+                raise self._report.reject(
+                    "T002",
+                    f"`{name}` is read above its line, and the output is {type}: give it to another wire, `#y`, and write "
+                    f"`{name} : {type} = #y;` below the call.",
                     each.span,
-                )  # fmt: skip
-            hidden(self._body, each.value.name, type, each.span)
+                )
         return each
 
     def _output(self, callee: tree.Expression, name: str) -> Type | None:
@@ -123,15 +129,14 @@ class FunctionBlocks:
             return
         assert wire is not None
         if wire.type is not None and not wire.loop:
-            hidden(self._body, wire.name, self._body.declarations.type_of(wire.type), wire.span)
+            self._code.wire(wire.name, self._body.declarations.type_of(wire.type), wire.span)
         if wire.type is not None or wire.loop:
             self._code.run(tree.Assignment(item.target, value, item.span))
             return
         found = settle(self._body.expression(value))
         if found.type is None or has_instance(found.type):
             raise self._report.reject("T002", "This gives no value, so a wire cannot have it.", item.span)
-        hidden(self._body, wire.name, found.type, wire.span)
-        self._code.store(tree.Name(wire.name, item.span), found, item.span)
+        self._code.store(self._code.wire(wire.name, found.type, wire.span), found, item.span)
 
 
 def _wires_of(item: networks.Item) -> Iterator[str]:

@@ -14,6 +14,7 @@ from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Pou,
 from scanbench.program.types import BOOL, Elementary, Type, initial_of
 from scanbench.program.untyped import is_untyped, settle
 from scanbench.syntax import tree
+from scanbench.syntax.networks import wire_at
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,18 +38,20 @@ def _enabled_call(body: Body, apart: Enabling, wanted: Type | None) -> tuple[lis
     ok = body.temporary(BOOL, span) if apart.eno is not None else None
     callee = callee_of(body, node.callee, node)
     if callee is None:
-        run, result, told = _enabled_standard(body, node, wanted, ok)
+        run, result, is_told = _enabled_standard(body, node, wanted, ok)
     else:
         called = callee if isinstance(callee, Pou) else callee[1].pou
         inputs = called.frame.members if called is not None else ()
         made = invoked(body, callee, given_enable(apart, inputs), ok)
         pou = made.call.pou
         result = body.temporary(pou.result, span) if pou.result is not None else None
-        run, told = made.statements(span, result), "ENO" in pou.parameters
-    if ok is not None and not told:
+        run, is_told = made.statements(span, result), "ENO" in pou.parameters
+    if ok is not None and not is_told:
         run.append(Assign(ok, Const(BOOL, 1), span))
     if condition is not None:
-        skipped = [_zero(result, span)] if result is not None else []
+        skipped = without_call(body, node)
+        if result is not None:
+            skipped.append(_zero(result, span))
         if ok is not None:
             skipped.append(Assign(ok, Const(BOOL, 0), span))
         run = [If(((condition, tuple(run)),), tuple(skipped), span)]
@@ -87,12 +90,23 @@ def store_eno(body: Body, value: Expr, eno: tree.Argument) -> Stmt:
     return Assign(target, coerce(body, value, target.type, eno.span, "The target of `ENO`"), eno.span)
 
 
+def told(eno: tree.Argument, ok: tree.Expression) -> tree.Expression:
+    """What `ENO => x` or `NOT ENO => x` gives to x."""
+    return tree.UnaryOp("not", ok, eno.span) if eno.negated else ok
+
+
 def _zero(place: Place, span: Span) -> Stmt:
     data = initial_of(place.type)
     constant = decode(place.type, data)
     if constant is not None and isinstance(place.type, Elementary):
         return Assign(place, constant, span)
     return SetBytes(place, data, span)
+
+
+def without_call(body: Body, node: tree.Call) -> list[Stmt]:
+    """What EN does where it keeps a box from being called: wires at its outputs have their defaults."""
+    wires = [wire for each in node.arguments if (wire := wire_at(each)) is not None]
+    return [_zero(body.place(each)[0], each.span) for each in wires]
 
 
 def enabling(node: tree.Call) -> Enabling:

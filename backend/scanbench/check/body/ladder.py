@@ -8,8 +8,7 @@ from dataclasses import replace
 
 from scanbench.check.body import fold
 from scanbench.check.body.coercion import as_type
-from scanbench.check.body.enabling import enabling
-from scanbench.check.body.il_operands import hidden
+from scanbench.check.body.enabling import enabling, told
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
@@ -44,6 +43,13 @@ class Ladder:
     def condition(self, rung: networks.Rung) -> Expr:
         """The power at the end of a rung: the condition of a transition."""
         self._sent.clear()
+        for each in networks.elements(rung.path):
+            if isinstance(each, networks.Leave):
+                raise self._report.reject(
+                    "T010",
+                    "The rung of a condition only gives power; a jump or RETURN in it has nowhere to go.",
+                    each.span,
+                )
         with suppress(Ended):
             power = self._path(rung.path, RAIL, used=True)
             return Const(BOOL, 1) if power is RAIL else self._code.load(power)
@@ -58,7 +64,19 @@ class Ladder:
                 power = self._element(each, power, used or number + 1 < len(path))
             except Rejected:
                 continue
+            except Ended:
+                if number + 1 == len(path):
+                    raise
+                power = self._no_power("this", path[number + 1].span)
         return power
+
+    def _no_power(self, what: str, span: Span) -> tree.Name:
+        """Refuses what comes after branches that all end. It is checked with a power that is FALSE."""
+        self._report.error(
+            "T010", f"No power comes to {what}: each branch before it ends with a jump, RETURN or `->`; move it to a rung of its own.",
+            span,
+        )  # fmt: skip
+        return self._code.note(Const(BOOL, 0), span)
 
     def _element(self, each: networks.Element, power: Power, used: bool) -> Power:
         match each:
@@ -141,7 +159,7 @@ class Ladder:
         return self._code.note(self._with(power, self._code.load(wire)), each.span)
 
     def _wire(self, name: str, span: Span) -> tree.Name:
-        return tree.Name(hidden(self._body, f"$wire.{name}", BOOL, span).name, span)
+        return self._code.wire(networks.WIRE + name, BOOL, span)
 
     # ---- boxes ------------------------------------------------------------------------------------------------------
 
@@ -174,7 +192,7 @@ class Ladder:
         else:
             self._code.enabled_result(each.result, own, ok, span)
         if apart.eno is not None and apart.eno.value is not None:
-            self._code.run(tree.Assignment(apart.eno.value, ok, apart.eno.span))
+            self._code.run(tree.Assignment(apart.eno.value, told(apart.eno, ok), apart.eno.span))
         if each.output and each.output.upper() != "ENO":
             output = tree.MemberOf(each.callee, each.output, each.after)
             return self._code.note(self._with(ok, as_type(self._body, output, BOOL, "The power after a box")), span)
@@ -182,8 +200,11 @@ class Ladder:
 
     def _argument(self, each: tree.Argument | networks.Branch, power: Power) -> tree.Argument:
         if isinstance(each, networks.Branch):
-            value = self._value(self._path((each.parallel,), RAIL, used=True), each.span)
-            return tree.Argument(each.name, False, value, each.span)
+            try:
+                power = self._path((each.parallel,), RAIL, used=True)
+            except Ended:
+                power = self._no_power(f"`{each.name}`", each.span)
+            return tree.Argument(each.name, False, self._value(power, each.span), each.span)
         if isinstance(each.value, tree.Name):
             if each.value.name == networks.POWER:
                 return replace(each, value=self._value(power, each.span))

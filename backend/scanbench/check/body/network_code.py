@@ -10,7 +10,7 @@ from scanbench.check.context import Rejected
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Blocks, Expr, If, Jump, Load, Return, Stmt
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import BOOL, Type
+from scanbench.program.types import BOOL, Elementary, Type, base_of
 from scanbench.syntax import networks, tree
 
 
@@ -22,8 +22,11 @@ class NetworkCode:
         self.report = body.report
         self._written = written
         self._memories = {id(each): name for each, name in networks.edges(written)}
+        self._loops = {id(each): name for each, name in networks.loops(written)}
         self._blocks: list[list[Stmt]] = [[]]
         self._labels: dict[str, int] = {}
+        self._number = 0
+        """Of the network, from 1."""
         self._count = 0
         """Temporaries of the network."""
         self._leaving: list[tuple[networks.Leave, tree.Name | None]] = []
@@ -38,6 +41,9 @@ class NetworkCode:
 
     def begin(self, network: networks.Rung | networks.Diagram) -> None:
         self._count, self._leaving = 0, []
+        self._number += 1
+        self.body.scope.wires.clear()
+        self.body.unmade.clear()
         if network.label:
             self._blocks.append([])
 
@@ -84,6 +90,18 @@ class NetworkCode:
         """A temporary of its own."""
         self._count += 1
         return tree.Name(hidden(self.body, f"${kind}{self._count}", type, span).name, span)
+
+    def wire(self, name: str, type: Type, span: Span) -> tree.Name:
+        """A wire or link, `#low`, of this network alone: a temporary with its name."""
+        made = hidden(self.body, f"{name}/{self._number}", type, span)
+        self.body.scope.wires[name.upper()] = made.name.upper()
+        return tree.Name(name, span)
+
+    def loop(self, wire: networks.Wire) -> bool:
+        """Makes a wire known that keeps its value. Whether the body has a place for it."""
+        name = self._loops[id(wire)]
+        self.body.scope.wires[wire.name.upper()] = name
+        return self.body.scope.find(name) is not None
 
     def note(self, value: Expr, span: Span, kind: str = "power") -> tree.Name:
         """Keeps a BOOL for what comes after it. `power`: of a contact, which a step over skips (`symbols.sites`)."""
@@ -132,9 +150,19 @@ class NetworkCode:
             taken = Jump(target, target < len(self._blocks), trap, each.span)
         self.emit(taken if condition is None else If(((self.load(condition), (taken,)),), (), each.span))
 
+    def _wanted(self, target: tree.Expression) -> Type | None:
+        """The type that literals of a box take. Nothing is said here of a target that is wrong."""
+        mark = self.report.mark()
+        try:
+            type = self.body.place(target)[0].type
+        except Rejected:
+            type = None
+        self.report.undo(mark)
+        return base_of(type) if isinstance(type, Elementary) else None
+
     def enabled_result(self, target: tree.Expression, apart: Enabling, ok: tree.Name, span: Span) -> None:
         """Writes the result of a call with EN or ENO, where it worked."""
-        run, value = enabled(self.body, apart, None)
+        run, value = enabled(self.body, apart, self._wanted(target))
         if value is None or value.type is None:
             raise self.report.reject("T002", "This gives no value, so nothing can be assigned.", span)
         for statement in run:

@@ -15,6 +15,7 @@ from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
+from scanbench.syntax.networks import WIRE
 from scanbench.syntax.scl import is_scl
 
 INSTANCE = ("THIS", "SUPER")
@@ -58,6 +59,11 @@ def undeclared(body: Body, name: str, span: Span) -> Rejected:
     if name == NOTHING or upper in body.unmade:  # reported
         return Rejected()
     constants = body.scope.constants
+    if name.startswith(WIRE):
+        hint = body.report.near(name, lambda: list(body.scope.wires), "wire")
+        return body.report.reject(
+            "T001", f"Nothing sets `{name}` in this network, to which a wire belongs.{hint}", span
+        )
     owners = (body.scope.pou.upper(), "GLOBAL", *(each.name.upper() for each in constants))
     if {(owner, upper) for owner in owners} & body.declarations.broken:
         return Rejected()

@@ -52,6 +52,8 @@ class Scope:
     """With whose rights it writes to areas of the model."""
     policy: str = ""
     """What becomes of values outside of a subrange here, where their variables say nothing."""
+    wires: dict[str, str] = field(default_factory=dict)
+    """Of the network that is being checked: its wires and links, `#LOW`, and the hidden variables that they are, in upper case."""
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:
         """The member, what its offset counts from, and who owns it."""
@@ -59,6 +61,7 @@ class Scope:
             outside = replace(self, frame=None, kept={}, instance=None, externals={}, constants=())
             return outside.find(name.removeprefix(GLOBAL_MARK))
         key = name.upper()
+        key = self.wires.get(key, key)
         for owner in self.constants:
             if self.later is not None:
                 self.later.ask(owner, key)

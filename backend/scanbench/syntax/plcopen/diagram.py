@@ -127,6 +127,7 @@ class Diagram:
         if not values:
             return pin.expression
         value = values[0] if len(values) == 1 else self._joined(values)
+        value = _operand(value) if pin.edge or pin.negated else value
         if pin.edge:
             value = self._edge(pin.edge, value)
         return f"NOT {value}" if pin.negated else value
@@ -164,7 +165,8 @@ class Diagram:
     def _contact(self, each: Thing) -> None:
         power = self._input(each.inputs[0]) if each.inputs else "FALSE"
         edge = {"rising": "R_EDGE ", "falling": "F_EDGE "}.get(each.edge, "")
-        own = f"{'NOT ' if each.negated else ''}{edge}{each.name or 'FALSE'}"
+        name = each.name or "FALSE"
+        own = f"{'NOT ' if each.negated else ''}{edge}{_operand(name) if each.negated or edge else name}"
         wire = self._wire((each.id, ""))
         self.lines.append(f"{wire} = {own};" if power == "TRUE" else f"{wire} = AND({power}, {own});")
 
@@ -233,5 +235,6 @@ def formal(name: str) -> str:
     return name.upper() if name[:2].upper() == "IN" and name[2:].isdigit() else name
 
 
-def _operand(text: str) -> str:
-    return text if text.replace("_", "").replace(".", "").isalnum() else f"({text})"
+def _operand(value: str) -> str:
+    """In brackets, unless it is a name or a literal."""
+    return value if re.fullmatch(r"[\w#%.?\[\]^]+", value) else f"({value})"

@@ -39,7 +39,7 @@ const element = (line: number, column: number, power: boolean | null, values: Va
 
 const flow = (elements: FlowElement[], wires: Values = {}): Flow => ({
   ...{ scan: 7, calls: 1, call: 1, whole: true, elements },
-  wires: Object.entries(wires).map(([name, text]) => ({ name, text, written: true })),
+  wires: Object.entries(wires).map(([name, text]) => ({ name, text, line: 6 })),
 });
 
 function apart(index: number, one: Flow, other: Flow, first?: [number, number]) {

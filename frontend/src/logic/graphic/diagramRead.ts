@@ -14,7 +14,7 @@ const LEAVE = /^(?:RETURN|(JMP\s+)([\p{L}_][\p{L}\p{N}_]*|\?\?\?))(?:\s+IF\s+([\
 const WIRE = /^(#\s*[\p{L}_][\p{L}\p{N}_]*)\s*(?::([^=]+))?=(?!=)\s*([\s\S]+)$/u;
 const ASSIGNED = /^((?:[\p{L}_%]|\?\?\?)[^(]*?)\s*(?::=|\s([SR])\s*=)\s*([\s\S]+)$/iu;
 const CALL = /^((?!NOT\b)[\p{L}_][\p{L}\p{N}_]*(?:\.[\p{L}_][\p{L}\p{N}_]*|\[[^\]]*\])*|\?\?\?)\s*\(/iu;
-const EDGE = /^(NOT\s+)?([RF])_EDGE\s+([\p{L}_#%?][\s\S]*)$/iu;
+const EDGE = /^(NOT\s+)?([RF])_EDGE\s+([\p{L}_#%?(][\s\S]*)$/iu;
 const NEGATED = /^NOT\s+([\p{L}_%#][\p{L}\p{N}_.]*(?:\[[^\]]*\][\p{L}\p{N}_.]*)*|\?\?\?)$/iu;
 const NAMED = /^(?:(NOT)\s+)?([\p{L}_][\p{L}\p{N}_]*)\s*(:=|=>)\s*([\s\S]+)$/iu;
 

@@ -5,7 +5,7 @@
 
 import type { Flow, FlowElement, FlowValue } from "../../wire/types";
 import type { Drawing } from "./ladderLayout";
-import { elementIn } from "./places";
+import { elementIn, holds } from "./places";
 import type { Power, PowerNode } from "./power";
 import type { DrawnPart } from "./sheet";
 import type { Span } from "./tree";
@@ -50,7 +50,10 @@ export function partFlow(part: DrawnPart, flows: readonly Flow[], lineOf: LineOf
   }
   const wires = new Map<string, string>();
   for (const flow of before ? [before, first] : [first])
-    for (const { name, text } of flow.wires) wires.set(name.toUpperCase(), text);
+    for (const { name, text, line } of flow.wires) {
+      const shown = lineOf(line);
+      if (shown !== null && holds(part, shown)) wires.set(name.toUpperCase(), text);
+    }
   const told = begun || first.whole || !before ? first : before;
   const late = [...at.values()].some(({ stale }) => stale);
   const state =

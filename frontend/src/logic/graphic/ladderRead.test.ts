@@ -54,12 +54,19 @@ describe("rungs", () => {
   });
 
   it("know modes from variables with the same letter", () => {
-    const [found] = networksIn("RUNG\n    [P x] [P] [N > 3] [/ y] (S q) (S) (P p)\nEND_RUNG\n");
+    const [found] = networksIn(
+      "RUNG\n    [P x] [P] [N > 3] [P order] [P NOT x] [P (x OR y)] [P(x)] [P OR x] [/ y] (S q) (S) (P p)\nEND_RUNG\n",
+    );
     const rung = found && readRung(found);
     expect(rung?.kind === "rung" && rung.path.map((each) => "mode" in each && [each.mode, each.operand])).toEqual([
       ["P", "x"],
       ["", "P"],
       ["", "N > 3"],
+      ["P", "order"],
+      ["P", "NOT x"],
+      ["P", "(x OR y)"],
+      ["", "P(x)"],
+      ["", "P OR x"],
       ["/", "y"],
       ["S", "q"],
       ["", "S"],

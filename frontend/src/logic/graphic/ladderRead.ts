@@ -7,8 +7,8 @@ import { NotRead, Reader } from "./reader";
 import type { Box, Coil, CoilMode, Contact, ContactMode, Element, Jump, Parallel, Path, Rung, Unread } from "./tree";
 
 /** A word that goes on as an expression: then a letter before it is a variable, not a mode. */
-const OPERATOR = /^(?:AND|OR|XOR|MOD|=|<|>|\+|-|\*|\/|&|\.|\[|\()/i;
-const STARTS = /^[\p{L}_%"#]/u;
+const OPERATOR = /^(?:(?:AND|OR|XOR|MOD)(?![\p{L}\p{N}_])|=|<|>|\+|-|\*|\/|&|\.|\[)/iu;
+const STARTS = /^[\p{L}_%"#(]/u;
 
 /** The rung, or why its text cannot be read. `comments` says that there are comments between its elements. */
 export function readRung(found: Found): (Rung & { comments: boolean }) | Unread {
