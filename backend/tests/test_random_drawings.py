@@ -27,6 +27,7 @@ def test_batches_have_every_kind_and_all_of_it() -> None:
     everything = "\n".join(each.drawn.source for some in batches for each in some)
     for word in (
         "[a]", "[/a]", "[P a]", "[N a]", "(a)", "(/a)", "(S a)", "(R a)", "(P a)", "(N a)", "-> #w", "< ",
+        ":= SEL(EN := ~, ", "NOT ENO => ", "EN := < [", "Q => #w", ").Q", "RETURN", "JMP r1", "JMP n1", "CV => #v", "EN := #w",
         "R_EDGE #w", "F_EDGE a", "NOT #w", "S=", "R=", " : INT = ", "SEL(", "XOR(",
         "(PRIORITY := 1)", "FROM (S", "TO (S", ".T >= ", "(P0)", "(P1)", "(N)", "(R)", "(SD, T#", "(DS, T#", "(SL, T#",
     ):  # fmt: skip
@@ -55,11 +56,11 @@ def test_of_a_batch_that_fails_the_one_drawing_is_said(monkeypatch: pytest.Monke
 
 
 def test_a_drawing_is_made_small() -> None:
-    made = given("ladder", Random(2))
+    made = given("ladder", Random(0))
     assert made.drawn.source.count("(N ") > 1
     notes = smaller(list(made.notes), lambda fewer: "(N " in ladder.drawn(again(fewer)).source)
     body = ladder.drawn(again(notes)).source.split("END_VAR")[1]
-    assert body.split() == ["RUNG", "(N", "a)", "END_RUNG", "END_PROGRAM"]
+    assert body.split() == ["RUNG", "r0:", "(N", "a)", "END_RUNG", "END_PROGRAM"]
 
 
 def test_numbers_are_made_small() -> None:

@@ -81,7 +81,12 @@ def _name(c: Cursor, what: str) -> tree.Name:
 
 def _association(c: Cursor) -> chart.Association:
     start = c.at
-    action = parse_expression.postfix(c, _name(c, "an action, or END_STEP,"), calls=False)
+    base: tree.Expression
+    if c.kinds[start] is Lex.ADDRESS:
+        base = tree.DirectAddress(c.texts[c.take()], c.span_of(start))
+    else:
+        base = _name(c, "an action, or END_STEP,")
+    action = parse_expression.postfix(c, base, calls=False)
     written = "".join(c.texts[start : c.at])
     qualifier = "N"
     duration = indicator = None

@@ -73,10 +73,11 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     result, extends, implements, more = header
     sections, result = grouped(parameters, sections, result)
     modifiers += (TYPE_PARAMETERS,) * bool(parameters) + (VARIADIC,) * c.variadic
-    return tree.PouDeclaration(
-        kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
+    made = tree.PouDeclaration(
+        kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), (),
         extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy, asked=_asked(c),
     )  # fmt: skip
+    return with_member(made, methods)
 
 
 def _asked(c: Cursor) -> tuple[tree.NamedType, ...]:
@@ -378,5 +379,14 @@ def _joined(first: Body, second: Body) -> Body:
 
 
 def with_member(pou: tree.PouDeclaration, members: list[tree.PouDeclaration]) -> tree.PouDeclaration:
-    """A POU with members that are written after its end, as in some exports."""
-    return replace(pou, methods=(*pou.methods, *members))
+    """A POU with these members. What edges and loops of an ACTION remember are variables of the POU."""
+    own = [_owned(each, pou.name) for each in members]
+    bodies = [each.body for each in own if ACTION in each.modifiers and pou.kind in ("program", "function_block")]
+    kept = [section for body in bodies if isinstance(body, NetworkBody) for section in memories(body)]
+    return replace(pou, methods=(*pou.methods, *own), sections=(*pou.sections, *kept))
+
+
+def _owned(member: tree.PouDeclaration, owner: str) -> tree.PouDeclaration:
+    if not isinstance(member.body, NetworkBody):
+        return member
+    return replace(member, body=replace(member.body, owner=f"{owner}.{member.name}"))

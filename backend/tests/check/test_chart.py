@@ -35,6 +35,7 @@ WRONG = [
         9,
         "a jump or RETURN in it",
     ),
+    ("INITIAL_STEP One:\nb(N, x);\nEND_STEP", "T002", 4, "The indicator of an action is BOOL"),
     (AB + "STEP C1:\nEND_STEP", "W001", 8, "Nothing leads to the step `C1`"),
     (AB + "STEP One:\nEND_STEP", "D001", 8, "`One`"),
     (with_action("b(L);"), "S003", 4, "L needs a duration: `b(L, T#1s)`"),

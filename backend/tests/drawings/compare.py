@@ -15,17 +15,20 @@ from tests.caseformat import MODELS, first_difference
 from tests.drawings.drawn import Drawn
 
 MODEL = MODELS["GENERIC-IEC"]
+LEFT_OUT = 3
+"""The second instances are not called in each third scan."""
 
 
 def program_of(drawn: Sequence[Drawn]) -> str:
-    """The drawings as blocks, and a main program that calls each once."""
+    """The drawings as blocks, and a main program that calls two instances of each; the second one not in every scan."""
     blocks = [
         each.source.replace("PROGRAM Main", f"FUNCTION_BLOCK F{number}", 1).replace("END_PROGRAM", "END_FUNCTION_BLOCK")
         for number, each in enumerate(drawn)
     ]
-    names = "".join(f"f{number} : F{number}; " for number in range(len(drawn)))
-    calls = "".join(f"f{number}();\n" for number in range(len(drawn)))
-    return f"{''.join(blocks)}PROGRAM Main\nVAR {names}END_VAR\n{calls}END_PROGRAM\n"
+    names = "".join(f"f{number}, g{number} : F{number}; " for number in range(len(drawn)))
+    first, second = ("".join(f"{kind}{number}();\n" for number in range(len(drawn))) for kind in "fg")
+    late = f"scan := scan + 1;\nIF scan MOD {LEFT_OUT} <> 0 THEN\n{second}END_IF;\n"
+    return f"{''.join(blocks)}PROGRAM Main\nVAR scan : INT; {names}END_VAR\n{first}{late}END_PROGRAM\n"
 
 
 def failure(drawn: Sequence[Drawn], level: int) -> str:
@@ -44,20 +47,26 @@ def _difference(program: Program, drawn: Sequence[Drawn], level: int) -> str:
     # not optimised it is one module, as of a large program that begins soon: that takes half the time of its parts
     objects = None if level else [jit.compile_object(emit_program(program), level, jit.Timings())]
     engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1], level, objects)]
-    running = [(each, each.begin(), places(program, number, memories)) for number, each in enumerate(drawn)]
+    running = [
+        (kind, each.sets[:: 1 if kind == "f" else -1], each.begin(), places(program, f"{kind}{number}", memories))
+        for number, each in enumerate(drawn)
+        for kind in "fg"
+    ]
     for scan in range(max(len(each.sets) for each in drawn)):
-        for each, _, place in running:
-            for name, value in each.sets[scan].items():
+        called = [each for each in running if each[0] == "f" or (scan + 1) % LEFT_OUT]
+        for _, sets, _, place in called:
+            for name, value in sets[scan].items():
                 place(name).write(value)
         stops = [engine.run(1) for engine in engines]
         if [each.reason for each in stops] != [Reason.DONE] * 2:
             return f"stopped: {stops} in scan {scan}"
         if found := first_difference(program, *memories):
             return f"engines: {found} after scan {scan}"
-        for each, evaluate, place in running:
-            for name, wanted in evaluate(scan, each.sets[scan]).items():
+        for kind, sets, evaluate, place in called:
+            for name, wanted in evaluate(scan, sets[scan]).items():
                 if (value := place(name).read()) != wanted:
-                    return f"evaluation: {name} is {value}, not {wanted} after scan {scan}"
+                    which = "" if kind == "f" else " in the second instance"
+                    return f"evaluation: {name} is {value}, not {wanted} after scan {scan}{which}"
     return ""
 
 
@@ -79,7 +88,7 @@ class _Place:
             memory[self._offset : self._end] = value.to_bytes(self._end - self._offset, "little", signed=True)
 
 
-def places(program: Program, number: int, memories: Sequence[bytearray]) -> Callable[[str], _Place]:
+def places(program: Program, instance: str, memories: Sequence[bytearray]) -> Callable[[str], _Place]:
     """The variables of a drawing by their paths. `symbols.resolve` is for the paths that people write, and takes a hundred times as long."""
     main = next(each for each in program.shown if each.name == "Main")
     known: dict[str, _Place] = {}
@@ -88,7 +97,7 @@ def places(program: Program, number: int, memories: Sequence[bytearray]) -> Call
         if path not in known:
             type: Type = main.pou.instance
             offset, bit = main.offset, None
-            for name in (f"f{number}", *path.split(".")):
+            for name in (instance, *path.split(".")):
                 assert isinstance(type, Record)
                 member = type.members[name.upper()]
                 offset, bit, type = offset + member.offset, member.bit, member.type

@@ -1,6 +1,6 @@
 """Random function block diagrams, with what a straightforward evaluation of the lines computes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from tests.drawings.drawn import Drawn, Evaluate, Values
@@ -29,12 +29,16 @@ class Maker:
     wires: dict[str, str] = field(default_factory=dict)
     """Those that can be read, with their types."""
     edges: int = 0
+    network: str = ""
+    """Before the names of wires in `Values`: each network has its own."""
+    blocks: list[str] = field(default_factory=list)
 
     def source(self, kind: str) -> tuple[str, Value]:
         """A variable or a wire."""
         names = [*(BOOLS if kind == "BOOL" else INTS), *(name for name, type in self.wires.items() if type == kind)]
         name = self.draws.one(names)
-        return name, lambda values: values[name]
+        key = self.network + name if name in self.wires else name
+        return name, lambda values: values[key]
 
     def pin(self) -> tuple[str, Value]:
         """A BOOL at an input, perhaps negated or an edge."""
@@ -91,7 +95,8 @@ class Maker:
         if wire in loops or self.draws.flag():
             self.wires[wire] = kind
             type = f" : {kind}" if wire in loops else ""
-            return f"{wire}{type} = {text};", lambda values: values.update({wire: value(values)})
+            key = self.network + wire
+            return f"{wire}{type} = {text};", lambda values: values.update({key: value(values)})
         name = self.draws.one(BOOLS if kind == "BOOL" else INTS)
         operator = self.draws.one([":=", "S=", "R="] if kind == "BOOL" else [":="])
 
@@ -101,6 +106,66 @@ class Maker:
                 values[name] = found if operator == ":=" else int(operator == "S=")
 
         return f"{name} {operator} {text};", store
+
+    def enabled(self, number: int) -> tuple[str, Callable[[Values], None]]:
+        """A function with EN: a wire gets its result, or 0, or a variable does, or keeps its value."""
+        (en, on), (g, which), (a, left), (b, right) = self.pin(), self.pin(), self.source("INT"), self.source("INT")
+        wire, target, eno = self.draws.flag(), self.draws.one(INTS), self.draws.one(BOOLS)
+        text = f"SEL(EN := {en}, G := {g}, IN0 := {a}, IN1 := {b}, NOT ENO => {eno})"
+        name, key = (f"#w{number}", f"{self.network}#w{number}") if wire else (target, target)
+        if wire:
+            self.wires[name] = "INT"
+
+        def run(values: Values) -> None:
+            enabled, second = bool(on(values)), bool(which(values))
+            if enabled:
+                values[key] = right(values) if second else left(values)
+            elif wire:
+                values[key] = 0
+            values[eno] = int(not enabled)
+
+        return f"{name} {'=' if wire else ':='} {text};", run
+
+    def counter(self, number: int) -> tuple[str, Callable[[Values], None]]:
+        """A counter with EN, and outputs that go to wires."""
+        name = f"c{len(self.blocks)}"
+        self.blocks.append(name)
+        (en, on), (cu, up), (r, reset) = self.pin(), self.pin(), self.pin()
+        eno, out, negated = self.draws.one("ab"), self.draws.one("cd"), self.draws.flag()
+        count, full = f"{self.network}#v{number}", f"{self.network}#w{number}"
+        if plain := self.draws.flag():
+            text = f"Q => #w{number}"
+            self.wires[f"#w{number}"] = "BOOL"
+        else:
+            text = f"{'NOT ' if negated else ''}Q => {out}"
+        self.wires[f"#v{number}"] = "INT"
+
+        def run(values: Values) -> None:
+            enabled, rising, ends = bool(on(values)), bool(up(values)), bool(reset(values))
+            if enabled:
+                rose = rising and not values.get(f"{name}.CU", 0)
+                values[f"{name}.CU"] = int(rising)
+                values[f"{name}.CV"] = 0 if ends else values.get(f"{name}.CV", 0) + rose
+            q = values.get(f"{name}.CV", 0) >= 2
+            values[count] = values[f"{name}.CV"] if enabled else 0
+            if plain:
+                values[full] = int(q and enabled)
+            elif enabled:
+                values[out] = int(q != negated)
+            values[eno] = int(not enabled)
+
+        return f"{name}(EN := {en}, CU := {cu}, R := {r}, PV := 2, {text}, CV => #v{number}, NOT ENO => {eno});", run
+
+    def leave(self, labels: Sequence[str]) -> tuple[str, Callable[[Values], None]]:
+        """A jump to a network below, or RETURN."""
+        label = self.draws.one(["", *labels])
+        text, value = self.pin()
+
+        def run(values: Values) -> None:
+            if value(values) and "leave" not in values:
+                values["leave"] = int(label[1:] or -1)
+
+        return f"{f'JMP {label}' if label else 'RETURN'} IF {text};", run
 
 
 Made = tuple[str, list[Callable[[Values], None]], list[Values], list[str]]
@@ -123,16 +188,64 @@ def diagram(draws: Draws) -> Made:
     return source, [run for _, run in lines], sets, list(loops)
 
 
+def networks(draws: Draws) -> tuple[str, list[list[Callable[[Values], None]]], list[Values], list[str]]:
+    """As `diagram`, with several networks whose wires have the same names, boxes with EN, and jumps over networks."""
+    maker = Maker(draws)
+    texts: list[str] = []
+    runs: list[list[Callable[[Values], None]]] = []
+    kept: list[str] = []
+    count = draws.integer(1, 4)
+    for network in range(count):
+        size = draws.integer(1, 7)
+        looped = draws.some(range(size), 0, min(size, 2))
+        loops = {f"#w{number}": draws.one(["BOOL", "INT"]) for number in looped}
+        maker.wires, maker.network = dict(loops), str(network)
+        kept += (f"{network}{wire}" for wire in loops)
+        labels = [f"n{each}" for each in range(network + 1, count)]
+        lines = []
+        for number in range(size):
+            kind = "line" if f"#w{number}" in loops else draws.one(["line", "line", "enabled", "counter", "leave"])
+            if kind == "line":
+                lines.append(maker.line(number, loops))
+            elif kind == "leave":
+                lines.append(maker.leave(labels))
+            else:
+                lines.append(maker.enabled(number) if kind == "enabled" else maker.counter(number))
+        body = "".join(f"  {text}\n" for text, _ in lines)
+        texts.append(f"NETWORK n{network}:\n{body}END_NETWORK\n")
+        runs.append([run for _, run in lines])
+    ranges = {**dict.fromkeys(BOOLS, (0, 1)), **dict.fromkeys(INTS, (-40, 40))}
+    sets = [draws.values(ranges) for _ in range(SCANS)]
+    counters = f" {', '.join(maker.blocks)} : CTU;" if maker.blocks else ""
+    source = (
+        f"PROGRAM Main\nVAR {', '.join(BOOLS)} : BOOL; {', '.join(INTS)} : INT;{counters} END_VAR\n"
+        f"{''.join(texts)}END_PROGRAM\n"
+    )
+    return source, runs, sets, kept
+
+
 def drawn(draws: Draws) -> Drawn:
+    return _drawn(*networks(draws))
+
+
+def plain(draws: Draws) -> Drawn:
+    """One network, without blocks, EN and jumps."""
     source, runs, sets, loops = diagram(draws)
+    return _drawn(source, [runs], sets, loops)
+
+
+def _drawn(source: str, runs: list[list[Callable[[Values], None]]], sets: list[Values], loops: list[str]) -> Drawn:
 
     def begin() -> Evaluate:
         values: Values = dict.fromkeys((*BOOLS, *INTS, *loops), 0)
 
         def evaluate(_: int, written: Values) -> Values:
             values.update(written)
-            for run in runs:
-                run(values)
+            at = 0
+            while 0 <= at < len(runs):
+                for run in runs[at]:
+                    run(values)
+                at = values.pop("leave", at + 1)
             return {name: int(values[name]) for name in (*BOOLS, *INTS)}
 
         return evaluate

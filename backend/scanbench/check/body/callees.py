@@ -36,6 +36,14 @@ def called(body: Body, callee: tree.Expression) -> Pou | None:
     return found if found is None or isinstance(found, Pou) else found[1].pou
 
 
+def called_by(body: Body, node: tree.Call) -> Pou | None:
+    """The same for a call with these arguments, before it is checked."""
+    mark = body.report.mark()
+    found = callee_of(body, node.callee, node)
+    body.report.undo(mark)
+    return found if found is None or isinstance(found, Pou) else found[1].pou
+
+
 def callee_of(
     body: Body, callee: tree.Expression, node: tree.Call | None = None
 ) -> Pou | tuple[Receiver, Method] | None:

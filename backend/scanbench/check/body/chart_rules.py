@@ -4,6 +4,7 @@ from collections import deque
 from itertools import combinations
 
 from scanbench.check.body.context import Body
+from scanbench.program.types import BOOL
 from scanbench.syntax import chart
 
 MOST_MARKINGS = 5_000
@@ -85,4 +86,7 @@ def _check_actions(body: Body, written: chart.Chart, markings: set[Marking] | No
                 body.report.error("T010", message, second.span)
         for _, each in (pair for pairs in use.by_qualifier.values() for pair in pairs):
             if each.indicator is not None:
-                body.place(each.indicator)
+                type = body.place(each.indicator)[0].type
+                if type != BOOL:
+                    message = f"The indicator of an action is BOOL, but this is {type}; a duration belongs to L, D, SD, DS and SL only."
+                    body.report.error("T002", message, each.indicator.span)

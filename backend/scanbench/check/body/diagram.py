@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.callees import called_by
 from scanbench.check.body.coercion import as_type
 from scanbench.check.body.enabling import enabling, told
 from scanbench.check.body.il_operands import type_of
@@ -77,7 +78,7 @@ class FunctionBlocks:
     # ---- boxes ------------------------------------------------------------------------------------------------------
 
     def _function(self, item: networks.Item, box: networks.Function) -> None:
-        arguments = tuple(self._argument(each, box.callee, item.span) for each in box.arguments)
+        arguments = tuple(self._argument(each, box, item.span) for each in box.arguments)
         call = tree.Call(box.callee, arguments, item.span)
         apart = enabling(call)
         if item.target is None:
@@ -91,11 +92,11 @@ class FunctionBlocks:
         else:
             self._set(item, call)
 
-    def _argument(self, each: tree.Argument | networks.Pin, callee: tree.Expression, span: Span) -> tree.Argument:
+    def _argument(self, each: tree.Argument | networks.Pin, box: networks.Function, span: Span) -> tree.Argument:
         if isinstance(each, networks.Pin):
             return tree.Argument(each.name, False, self._plain(each, span), each.span)
         if each.output and isinstance(each.value, tree.Name) and each.value.name.startswith(networks.WIRE):
-            type, name = self._output(callee, each.name or ""), each.value.name
+            type, name = self._output(box, each.name or ""), each.value.name
             wire = self._wires.get(name.upper())
             if type is None:
                 raise self._report.reject(
@@ -112,11 +113,21 @@ class FunctionBlocks:
                 )
         return each
 
-    def _output(self, callee: tree.Expression, name: str) -> Type | None:
-        """The type of an output of a block, or of ENO, which all boxes have."""
+    def _output(self, box: networks.Function, name: str) -> Type | None:
+        """The type of an output of a block, FUNCTION or method, or of ENO, which all boxes have."""
         if name.upper() == "ENO":
             return BOOL
-        record = type_of(self._body.scope, callee)
+        record = type_of(self._body.scope, box.callee)
+        if not isinstance(record, Record):
+            pins = (
+                tree.Argument(each.name, False, each.edge.operand, each.span)
+                if isinstance(each, networks.Pin)
+                else each
+                for each in box.arguments
+            )
+            call = tree.Call(box.callee, tuple(each for each in pins if not each.output), box.span)
+            pou = called_by(self._body, call)
+            record = None if pou is None else pou.frame
         member = record.members.get(name.upper()) if isinstance(record, Record) else None
         return None if member is None else member.type
 

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.callees import called_by
 from scanbench.check.body.coercion import as_type
 from scanbench.check.body.enabling import enabling, told
 from scanbench.check.body.network_code import NetworkCode
@@ -169,20 +170,24 @@ class Ladder:
         span = each.after if branched else each.span
         arguments = tuple(self._argument(argument, power) for argument in each.arguments)
         call = tree.Call(each.callee, arguments, span)
+        output: tree.Expression = tree.MemberOf(each.callee, each.output, each.after)
+        if each.output and each.output.upper() != "ENO" and called_by(self._body, enabling(call).call) is not None:
+            output = self._code.temporary("out", BOOL, span)
+            call = replace(call, arguments=(*arguments, tree.Argument(each.output, True, output, each.after)))
         apart = enabling(call)
         if apart.en is not None or apart.eno is not None or each.output.upper() == "ENO":
-            return self._enabled(each, call, power, span)
+            return self._enabled(each, call, power, output)
         if each.result is None:
             self._code.run(tree.ExpressionStatement(call, span))
         else:
             self._code.run(tree.Assignment(each.result, call, span))
         if not each.output:
             return power
-        output = tree.MemberOf(each.callee, each.output, each.after)
         return self._code.note(as_type(self._body, output, BOOL, "The power after a box"), span)
 
-    def _enabled(self, each: networks.Box, call: tree.Call, power: Power, span: Span) -> Power:
+    def _enabled(self, each: networks.Box, call: tree.Call, power: Power, output: tree.Expression) -> Power:
         """With EN or ENO: without power nothing is called and nothing is written."""
+        span = call.span
         apart, ok = enabling(call), self._code.temporary("ok", BOOL, span)
         own = replace(apart, eno=tree.Argument("ENO", True, ok, span))
         if each.result is None:
@@ -194,7 +199,6 @@ class Ladder:
         if apart.eno is not None and apart.eno.value is not None:
             self._code.run(tree.Assignment(apart.eno.value, told(apart.eno, ok), apart.eno.span))
         if each.output and each.output.upper() != "ENO":
-            output = tree.MemberOf(each.callee, each.output, each.after)
             return self._code.note(self._with(ok, as_type(self._body, output, BOOL, "The power after a box")), span)
         return ok if each.output else power
 

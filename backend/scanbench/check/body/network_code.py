@@ -117,8 +117,7 @@ class NetworkCode:
 
     def memory(self, each: networks.Contact | networks.Coil) -> tree.Name:
         """The variable that keeps what an edge saw last."""
-        pou = self.body.pou
-        if pou is None or pou.kind not in ("program", "function_block"):
+        if self.body.scope.find(self._memories[id(each)]) is None:
             raise self.report.reject(
                 "T010",
                 "An edge remembers the last evaluation, and a FUNCTION or METHOD keeps nothing; use R_TRIG or F_TRIG of the caller.",

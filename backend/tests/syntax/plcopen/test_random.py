@@ -20,7 +20,7 @@ from tests.drawings.compare import places, program_of
 from tests.drawings.drawn import Drawn
 from tests.drawings.draws import again, noted, smaller
 
-KINDS = {"ladder": ladder.drawn, "diagram": diagrams.drawn, "chart": charts.drawn, "mixed": mixed.drawn}
+KINDS = {"ladder": ladder.plain, "diagram": diagrams.plain, "chart": charts.drawn, "mixed": mixed.drawn}
 EACH = 30
 BATCHES = amount(34, 1)
 """Of 30 drawings for each kind and form."""
@@ -39,7 +39,7 @@ class Running:
         self.memory = bytearray(checked.program.initial_image)
         objects = [jit.compile_object(emit_program(checked.program), 0, jit.Timings())]
         self.engine = NativeEngine(checked.program, self.memory, 0, objects)
-        self.places = [places(checked.program, number, [self.memory]) for number in range(count)]
+        self.places = [places(checked.program, f"f{number}", [self.memory]) for number in range(count)]
 
     def run(self, drawn: Sequence[Drawn], scan: int) -> list[dict[str, int]]:
         """The variables of each drawing after a scan."""
