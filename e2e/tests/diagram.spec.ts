@@ -150,14 +150,6 @@ test('a network is drawn with the mouse @nightly', async ({ openAs, server }) =>
     await expect(value).toContainText('on TRUE');
   });
 
-  await test.step('a line is dragged to where a different one is, and back by taking that back', async () => {
-    await item('3: #w2 to on').dragTo(item('1: box OR to #w1'));
-    await expect(item('1: #w2 to on')).toBeVisible();
-    await expect(item('2: box OR to #w1')).toBeVisible();
-    await page.keyboard.press('Control+Z');
-    await expect(item('3: #w2 to on')).toBeVisible();
-  });
-
   await test.step('what cannot be read is not edited, and says so', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await mika.editor('Hold.st').caretAfter('#w1 = OR');
