@@ -80,6 +80,7 @@ class Allowance(Enum):
     MIXED_ARGUMENTS = auto()
     COUNTER_WRITES = auto()
     OPEN_REFERENCES = auto()
+    OPEN_INPUTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -403,6 +404,11 @@ RULES: dict[Allowance, Rule] = {
         "REF_TO ARRAY[*]: a reference to an array of any size, with its bounds",
         "what is referred to has a size",
         "`REF_TO ARRAY[0..9] OF INT`",
+    ),
+    Allowance.OPEN_INPUTS: Rule(
+        "an input ARRAY[*] that is written: the array that is passed to it gets the values",
+        "a POU does not write its inputs",
+        "`VAR_IN_OUT`",
     ),
     Allowance.COUNTER_WRITES: Rule(
         "assignments to the counter of a FOR loop inside of it, by `:=`, `=>` or an in-out: after each round the step is added to what it then is",

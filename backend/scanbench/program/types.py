@@ -241,6 +241,7 @@ class Member:
     note: "Member | None" = None
     """The hidden variable beside it that keeps what was written before a check limited it; see `check/body/notes.py`."""
     output: bool = False  # an ARRAY[*] that is declared as VAR_OUTPUT: bound as an in-out, and given as an output
+    open_input: bool = False  # an ARRAY[*] that is declared as VAR_INPUT: bound as an in-out, too
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 

@@ -290,8 +290,43 @@ APART = {
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
     Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION, Allowance.OPEN_REFERENCES,
+    Allowance.OPEN_INPUTS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
+
+
+WRITES = """FUNCTION Fill
+VAR_INPUT row : ARRAY[*] OF INT; END_VAR
+row[1] := 2;
+END_FUNCTION
+FUNCTION Passes
+VAR_INPUT row : ARRAY[*] OF INT; END_VAR
+Fill(row);
+END_FUNCTION
+FUNCTION Reads : INT
+VAR_INPUT row : ARRAY[*] OF INT; END_VAR
+Reads := row[1];
+END_FUNCTION
+PROGRAM Main
+VAR CONSTANT K : ARRAY[1..2] OF INT := [4, 5]; END_VAR
+VAR x : INT; END_VAR
+%s
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("body", ["Fill(K);", "Passes(K);"])
+def test_a_constant_is_no_array_for_an_input_that_is_written(body: str) -> None:
+    found = check_sources(with_dialect({"a.st": WRITES % body}, "codesys"), MODEL).problems
+    refused = [(each.code, each.span.line) for each in found if each.severity is Severity.ERROR]
+    assert refused == [("T003", 16)]
+    assert check_sources(with_dialect({"a.st": WRITES % "x := Reads(K);"}, "codesys"), MODEL).program is not None
+
+
+def test_an_array_of_any_size_that_is_constant_is_never_written() -> None:
+    text = "FUNCTION F\nVAR_IN_OUT CONSTANT a : ARRAY[*] OF INT; END_VAR\na[1] := 2;\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM"
+    found = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL).problems
+    assert [(each.code, each.span.line) for each in found if each.severity is Severity.ERROR] == [("T003", 3)]
 
 
 def test_every_allowance_has_a_rule_and_a_test() -> None:

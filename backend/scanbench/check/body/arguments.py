@@ -269,6 +269,8 @@ def in_out(
         )
         raise body.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
     if member.constant:
+        if member.open_input and may(body, Allowance.OPEN_INPUTS):
+            _perhaps_written(body, variable_symbol(member, owner), value)
         return _constant_in_out(body, member, value, before)
     if not isinstance(value, VARIABLES):
         raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
@@ -280,6 +282,21 @@ def in_out(
     if once and reader is not None and _is_shorter(place.type, member.type):
         return _read_as(body, member, reader, place, value, before)
     return _bindable(body, member, place, value)
+
+
+def _perhaps_written(body: Body, reader: Symbol, value: tree.Expression) -> None:
+    """An array for an input ARRAY[*], to which the dialect lets the POU write: refused if it does and this is no variable to write."""
+    if not isinstance(value, VARIABLES) or not is_variable(body, value):
+        return
+    place, member = body.place(value)
+    if member is not None and member.constant and member.section is not Section.IN_OUT:
+        why = f"Something writes to `{reader.name}`, and `{shown(value)}` is a CONSTANT; give it a variable."
+        body.report.borrowed.append(Borrowed(reader, Problem("T003", why, value.span)))
+        return
+    if member is not None and member.open_input:
+        targets.note_written(body, value)
+    targets.writable(body, place, value.span, "", reader)
+    body.report.lent.append(targets.variable(value).span)
 
 
 def _is_shorter(actual: Type, formal: Type) -> bool:

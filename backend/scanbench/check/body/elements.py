@@ -58,7 +58,7 @@ def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf)
 
 def byte_of(body: Body, place: Place, type: StringType, node: tree.Expression, read: bool = False) -> Place:
     """A byte of a string that ends at its first 0, counted from 0; the 0 may be written, too, and whatever is after it read."""
-    index = fold.convert(LINT, _index_value(body, node))
+    index = fold.convert(LINT, index_value(body, node))
     if isinstance(index, Const) and not 0 <= int(index.value) <= type.capacity:
         why = f"A {type} has the bytes 0..{type.capacity}, the last one for the 16#00 at its end; not {index.value!r}."
         raise body.report.reject("T012", why, node.span)
@@ -73,7 +73,7 @@ def byte_of(body: Body, place: Place, type: StringType, node: tree.Expression, r
 
 def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr:
     """The position of a character, which counts from 1."""
-    index = fold.convert(LINT, _index_value(body, node))
+    index = fold.convert(LINT, index_value(body, node))
     if may(body, Allowance.STRING_FROM_ZERO):
         index = fold.binary("add", LINT, index, Const(LINT, 1))
         used(body, Allowance.STRING_FROM_ZERO, node.span, f"`{shown(node)}` counts from 0", f"`{shown(node)} + 1`")
@@ -117,7 +117,8 @@ def _character_place(body: Body, place: Place, type: StringType, node: tree.Expr
     return replace(place, type=character_of(type), offset=place.offset + 2, indices=(*place.indices, one))
 
 
-def _index_value(body: Body, node: tree.Expression) -> Expr:
+def index_value(body: Body, node: tree.Expression) -> Expr:
+    """An index as an integer."""
     index = settle(body.expression(node))
     index = lenient_index(body, index, node.span, "An index") or index
     if not isinstance(index.type, Elementary) or index.type.kind not in (Kind.INT, Kind.UINT):
@@ -128,7 +129,7 @@ def _index_value(body: Body, node: tree.Expression) -> Expr:
 def _index(body: Body, place: Place, type: ArrayType, dimension: int, node: tree.Expression) -> Place:
     low, high = type.bounds[dimension]
     stride = type.stride(dimension)
-    index = _index_value(body, node)
+    index = index_value(body, node)
     if isinstance(index, Const):
         number = int(index.value)
         if not low <= number <= high:
@@ -155,7 +156,7 @@ def _open_index(body: Body, place: Place, type: OpenArray, dimension: int, node:
         count = fold.binary("add", LINT, fold.binary("sub", LINT, high, low), Const(LINT, 1))
         stride = fold.binary("mul", LINT, stride, count)
     trap = body.trap(TrapKind.BOUNDS, node.span, "index outside of the bounds of this ARRAY[*]")
-    index = Index(_index_value(body, node), *limits[dimension], stride, trap)
+    index = Index(index_value(body, node), *limits[dimension], stride, trap)
     return replace(place, indices=(*place.indices, index))
 
 

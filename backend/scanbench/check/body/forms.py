@@ -1,10 +1,12 @@
 """Calls whose argument is not a value but a variable, an array or a type: REF, SIZEOF, UPPER_BOUND, SUBRANGE_ERROR and others."""
 
+from dataclasses import replace
+
 from scanbench.check.body import fold
 from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.elements import array_bounds
+from scanbench.check.body.elements import array_bounds, index_value
 from scanbench.check.body.heap import FORMS as HEAP_FORMS
 from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
@@ -14,9 +16,9 @@ from scanbench.check.body.vendor_forms import UNSUPPORTED, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.check.vendor_sizes import tell_bytes
-from scanbench.program.program import Const, Expr, Load, Violates
+from scanbench.program.program import Assign, Const, Expr, Index, Load, Sequence, Violates
 from scanbench.program.shown import shown
-from scanbench.program.sites import CheckSite
+from scanbench.program.sites import CheckSite, TrapKind
 from scanbench.program.types import BOOL, DINT, LINT, NULL, SLOT_BYTES, UDINT, ArrayType, OpenArray, Reference, Subrange
 from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
@@ -51,7 +53,8 @@ def _explicit_check(body: Body, node: tree.Call, name: str) -> Expr:
 def _bound_of(body: Body, node: tree.Call, upper: bool) -> Expr:
     """`LOWER_BOUND(array, dimension)` and `UPPER_BOUND`."""
     name = "UPPER_BOUND" if upper else "LOWER_BOUND"
-    values = [argument.value for argument in node.arguments if argument.value is not None]
+    given = sorted(node.arguments, key=lambda each: (each.name or "").upper())  # ARR, DIM
+    values = [argument.value for argument in given if argument.value is not None]
     if len(values) != 2 or len(node.arguments) != 2:
         raise body.report.reject("T004", f"`{name}` takes an array and the number of a dimension.", node.span)
     place, _ = body.place(values[0])
@@ -59,10 +62,25 @@ def _bound_of(body: Body, node: tree.Call, upper: bool) -> Expr:
         raise body.report.reject("T002", f"`{name}` needs an array, not {place.type}.", node.span)
     limits = array_bounds(place)
     number = settle(body.expression(values[1]))
-    if not isinstance(number, Const) or not isinstance(number.value, int) or not 1 <= number.value <= len(limits):
-        raise body.report.reject("T012", f"The dimension is a constant from 1 to {len(limits)}.", values[1].span)
+    if not isinstance(number, Const):
+        return _bound_by_number(body, [each[upper] for each in limits], values[1])
+    if not isinstance(number.value, int) or not 1 <= number.value <= len(limits):
+        raise body.report.reject("T012", f"The dimension is from 1 to {len(limits)}.", values[1].span)
     bound = limits[number.value - 1][upper]
     return Const(ANY_INT, bound.value) if isinstance(bound, Const) else fold.convert(DINT, bound)
+
+
+def _bound_by_number(body: Body, bounds: list[Expr], number: tree.Expression) -> Expr:
+    """The bound of the dimension that is computed; one that the array has not traps."""
+    made = body.temporary(ArrayType(((1, len(bounds)),), LINT), number.span)
+    stores = [
+        Assign(replace(made, type=LINT, offset=made.offset + LINT.size * at), bound, number.span)
+        for at, bound in enumerate(bounds)
+    ]
+    trap = body.trap(TrapKind.BOUNDS, number.span, f"the dimension is from 1 to {len(bounds)}")
+    index = Index(index_value(body, number), 1, len(bounds), LINT.size, trap)
+    one = Load(replace(made, type=LINT, indices=(*made.indices, index)))
+    return Sequence(tuple(stores), fold.convert(DINT, one))
 
 
 def _reference_to(body: Body, node: tree.Call, name: str) -> Expr:

@@ -91,6 +91,9 @@ def assignable(
     """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""
     if member is not None:
         if member.constant and member.section is Section.IN_OUT and isinstance(member.type, OpenArray):
+            used = f"`{member.name}` is an input, and is the array that was passed to it"
+            if member.open_input and allowed(body, Allowance.OPEN_INPUTS, span, used):
+                return
             raise body.report.reject("T003", f"`{member.name}` can only be read here.", span)
         if member.constant:
             what = "is a CONSTANT and cannot" if member.home != SYSTEM.name else "counts by itself and cannot"

@@ -126,4 +126,4 @@ def _open_array(declared: Declarations, record: Record, variable: tree.Variable,
     """An input or output whose size comes with each call is referred to; an input is only read."""
     member = declare(declared, record, variable, Section.IN_OUT, constant=not output)
     if member is not None:
-        member.output = output
+        member.output, member.open_input = output, not output

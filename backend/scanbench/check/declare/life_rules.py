@@ -38,10 +38,10 @@ def check_life_method(method: Method, report: Report, dialect: Dialect) -> None:
 
 def _check_inputs(method: Method, names: set[str], report: Report) -> None:
     declaration = method.declaration
-    if not names.issuperset(GIVEN):
+    if 0 < len(names.intersection(GIVEN)) < len(GIVEN):
         report.error(
             "D014",
-            f"`{method.name}` needs the two inputs `bInitRetains : BOOL` and `bInCopyCode : BOOL`.",
+            f"`{method.name}` has both inputs `bInitRetains : BOOL` and `bInCopyCode : BOOL`, or none of them.",
             declaration.span,
         )
         return
@@ -57,13 +57,14 @@ def _missing(method: Method) -> list[tree.Variable]:
     """Inputs of the FB_init that this one extends, and that this one lacks."""
     above = inherited_init(method.owner)
     names = {each.name.upper() for _, each in inputs_of(method.declaration)}
+    names.update(GIVEN)  # which the system gives, and RuSTy's have not
     return [] if above is None else [each for _, each in inputs_of(above.declaration) if each.name.upper() not in names]
 
 
 def is_whole(method: Method) -> bool:
     """Whether an FB_init has all inputs that it has to have."""
     names = {each.name.upper() for _, each in inputs_of(method.declaration)}
-    return names.issuperset(GIVEN) and not _missing(method)
+    return len(names.intersection(GIVEN)) != 1 and not _missing(method)
 
 
 def inherited_init(owner: Class) -> Method | None:

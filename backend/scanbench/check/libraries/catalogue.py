@@ -28,6 +28,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "CAA": ("codesys",),
     "FILE": ("codesys",),
     "IBaseLibrary": ("twincat",),
+    "Libc": ("codesys",),
     "Logix": ("rockwell",),
     "SM3_Basic": ("codesys",),
     "Siemens": ("siemens",),

@@ -13,7 +13,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.objects import own
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.classes import Class, called_pou
-from scanbench.check.declare.creations import FB_INIT
+from scanbench.check.declare.creations import FB_INIT, inputs_of
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.life_rules import COPY as COPY_INPUT
@@ -140,7 +140,9 @@ class Life:
         ]
         made += writer.members(record, mine, fresh)
         if fresh and init is not None and init.pou is not None:
-            given = {RETAINS_INPUT: RETAINS, COPY_INPUT: COPY}
+            has = {each.name.upper() for _, each in inputs_of(init.declaration)}
+            system = ((RETAINS_INPUT, RETAINS), (COPY_INPUT, COPY))
+            given = {name: input for name, input in system if name in has}
             given |= {each.name.upper(): hidden(each.name) for _, each in extra_inputs(owner)}
             made += _passing(body, init.pou, given, given)
         return made
