@@ -52,6 +52,8 @@ class Around:
     """What initialises instances."""
     placed: Record
     """Programs that have their place already (`placed_programs`)."""
+    settings: list[tree.Variable]
+    """VAR_CONFIG outside of a CONFIGURATION."""
 
 
 def assemble(
@@ -103,7 +105,8 @@ def assemble(
         common=common, plant=plant, tasked=tuple(tasked), life=life, called=called,
     )  # fmt: skip
     settings = Settings(report, declarations, program, planner.named)
-    return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
+    made = settings.apply(configuration, around.settings)
+    return replace(made, checks=tuple(report.checks), dialect=declarations.dialect.name)
 
 
 def _tell_empty(report: Report, where: Span, around: Around) -> None:

@@ -251,7 +251,8 @@ class Checker:
         order = self._order([*common, *([] if whole is None else [whole.pou])])
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]
-        around = Around(common, self.plant.programs(), whole, self.programs)
+        settings = [each for file in self.parsed for each in file.settings]
+        around = Around(common, self.plant.programs(), whole, self.programs, settings)
         return assemble(
             self.report,
             self.declarations,

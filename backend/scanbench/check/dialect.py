@@ -81,6 +81,7 @@ class Allowance(Enum):
     COUNTER_WRITES = auto()
     OPEN_REFERENCES = auto()
     OPEN_INPUTS = auto()
+    SETTING_LISTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -409,6 +410,11 @@ RULES: dict[Allowance, Rule] = {
         "an input ARRAY[*] that is written: the array that is passed to it gets the values",
         "a POU does not write its inputs",
         "`VAR_IN_OUT`",
+    ),
+    Allowance.SETTING_LISTS: Rule(
+        "VAR_CONFIG outside of a CONFIGURATION",
+        "it is a part of the CONFIGURATION",
+        "`CONFIGURATION c ... VAR_CONFIG ... END_VAR END_CONFIGURATION`",
     ),
     Allowance.COUNTER_WRITES: Rule(
         "assignments to the counter of a FOR loop inside of it, by `:=`, `=>` or an in-out: after each round the step is added to what it then is",

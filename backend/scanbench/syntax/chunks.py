@@ -63,6 +63,7 @@ class Chunked:
             whole.globals += chunk.file.globals
             whole.pous += chunk.file.pous
             whole.configurations += chunk.file.configurations
+            whole.settings += chunk.file.settings
             whole.internal += chunk.file.internal
             whole.stimuli += chunk.file.stimuli
         return whole

@@ -56,7 +56,7 @@ def _part_of(c: Cursor, parts: _Parts, end: str) -> bool:
     elif text == "VAR_GLOBAL":
         parts.globals.append(parse_declaration.section(c))
     elif text == "VAR_CONFIG":
-        parts.settings += _settings(c)
+        parts.settings += settings(c)
     elif text == "VAR_ACCESS":
         parts.accesses += _accesses(c)
     elif text == "PROGRAM":
@@ -155,7 +155,7 @@ def _connection(c: Cursor, connections: list[tree.Argument], blocks: list[tuple[
 # ---- VAR_CONFIG and VAR_ACCESS ------------------------------------------------------------------------------
 
 
-def _settings(c: Cursor) -> list[tree.Variable]:
+def settings(c: Cursor) -> list[tree.Variable]:
     """`resource.program.instance.variable AT %IX1.0 : BOOL := TRUE;`"""
     found = []
     start = c.take()

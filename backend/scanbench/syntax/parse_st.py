@@ -10,12 +10,11 @@ from scanbench.syntax.parse_pou import MEMBERS, with_member
 from scanbench.syntax.pragmas import is_external
 from scanbench.syntax.source import Source
 
-TOPS = frozenset(("PROGRAM", "FUNCTION_BLOCK", "FUNCTION", "TYPE", "VAR_GLOBAL", "CONFIGURATION"))
+TOPS = frozenset(("PROGRAM", "FUNCTION_BLOCK", "FUNCTION", "TYPE", "VAR_GLOBAL", "VAR_CONFIG", "CONFIGURATION"))
 WORDS = frozenset(("CLASS", "INTERFACE", "NAMESPACE", "USING", "ACTIONS")) | MEMBERS
 REFUSED = {
     "ORGANIZATION_BLOCK": "write a PROGRAM, and a TASK in a CONFIGURATION",
     "DATA_BLOCK": "write VAR_GLOBAL",
-    "VAR_CONFIG": "write it inside of the CONFIGURATION",
     "VAR_ACCESS": "write it inside of the CONFIGURATION",
 }
 ATTRIBUTES = re.compile(r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string)'", re.IGNORECASE)
@@ -61,6 +60,8 @@ def _top(c: Cursor, result: tree.File) -> None:
         _types(c, result)
     elif text == "VAR_GLOBAL":
         result.globals.append(parse_declaration.section(c, c.list_name, c.namespace))
+    elif text == "VAR_CONFIG":
+        result.settings += parse_configuration.settings(c)
     elif text == "CONFIGURATION":
         result.configurations.append(parse_configuration.configuration(c))
     elif word == "NAMESPACE":

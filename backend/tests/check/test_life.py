@@ -30,7 +30,7 @@ def found(text: str, dialect: DialectName = "codesys") -> list[tuple[str, str]]:
 @pytest.mark.parametrize(
     ("text", "code", "said"),
     [
-        (block("x : INT;") + main("u : Unit;"), "D014", "`bInCopyCode : BOOL`"),
+        (block("bInitRetains : BOOL;") + main("u : Unit;"), "D014", "`bInCopyCode : BOOL`"),
         (block(INPUTS + "nr : INT;") + main("u : Unit;"), "T004", "`Unit.FB_init` needs `nr`: `Unit(nr := ...)`"),
         (block(INPUTS + "number : INT;") + main("u : Unit(numbr := 3);"), "T004", "has no input `numbr`. Did you mean `number`?"),
         (block(INPUTS + "nr : INT;") + main("u : Unit(3, 4);"), "T004", "takes 1 further arguments, not 2"),

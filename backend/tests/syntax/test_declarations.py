@@ -81,6 +81,3 @@ def test_refused_sections() -> None:
     assert complaints("PROGRAM p\nVAR_ACCESS a : b : INT; END_VAR\nVAR x : INT; END_VAR\nEND_PROGRAM") == [
         "X001 2:1 VAR_ACCESS in a PROGRAM is not supported; write it inside of the CONFIGURATION."
     ]
-    assert complaints("VAR_CONFIG a : INT := 1; END_VAR\nPROGRAM p\nEND_PROGRAM") == [
-        "X001 1:1 VAR_CONFIG is not supported here; write it inside of the CONFIGURATION."
-    ]

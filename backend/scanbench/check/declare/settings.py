@@ -9,6 +9,7 @@ from scanbench.check.declare.addresses import offset_of
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
 from scanbench.check.declare.members import own_memory
+from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Program
 from scanbench.program.tasks import AccessPath
@@ -28,15 +29,13 @@ class Settings:
         self._image = bytearray(program.initial_image)
         self._open = dict(_incomplete(program)) if declarations.incomplete else {}
 
-    def apply(self, configuration: tree.Configuration | None) -> Program:
-        """The program with all that the configuration says."""
+    def apply(self, configuration: tree.Configuration | None, beside: list[tree.Variable]) -> Program:
+        """The program with all that the configuration says, and the VAR_CONFIG beside it."""
         accesses: list[AccessPath] = []
+        for setting in (*(() if configuration is None else configuration.settings), *self._allowed(beside)):
+            with suppress(Rejected):
+                self._setting(setting)
         if configuration is not None:
-            for setting in configuration.settings:
-                try:
-                    self._setting(setting)
-                except Rejected:
-                    continue
             for access in configuration.accesses:
                 try:
                     accesses.append(self._access(access, accesses))
@@ -51,6 +50,20 @@ class Settings:
         return replace(self._program, initial_image=bytes(self._image), accesses=tuple(accesses))
 
     # ---- VAR_CONFIG -------------------------------------------------------------------------------------
+
+    def _allowed(self, beside: list[tree.Variable]) -> list[tree.Variable]:
+        """Those outside of a CONFIGURATION, where the dialect has that."""
+        if not beside:
+            return []
+        dialect = self._declarations.dialect
+        if Allowance.SETTING_LISTS in dialect.allows:
+            used = "This VAR_CONFIG is outside of a CONFIGURATION"
+            self._report.warn("W006", said(dialect, Allowance.SETTING_LISTS, used), beside[0].span)
+            return beside
+        self._report.error(
+            "X001", "VAR_CONFIG is not supported here; write it inside of the CONFIGURATION.", beside[0].span
+        )
+        return []
 
     def _setting(self, setting: tree.Variable) -> None:
         symbol = self._symbol(setting.name, setting.span)
