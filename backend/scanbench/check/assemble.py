@@ -104,8 +104,7 @@ def assemble(
         tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks), tuple(report.calls),
         common=common, plant=plant, tasked=tuple(tasked), life=life, called=called,
     )  # fmt: skip
-    settings = Settings(report, declarations, program, planner.named)
-    made = settings.apply(configuration, around.settings)
+    made = Settings(report, declarations, program, planner.named).apply(configuration, around.settings)
     return replace(made, checks=tuple(report.checks), dialect=declarations.dialect.name)
 
 

@@ -254,16 +254,9 @@ class Checker:
         settings = [each for file in self.parsed for each in file.settings]
         around = Around(common, self.plant.programs(), whole, self.programs, settings)
         return assemble(
-            self.report,
-            self.declarations,
-            self.pous,
-            self.globals,
-            order,
-            configurations,
-            interval_ns,
-            self._end(),
+            self.report, self.declarations, self.pous, self.globals, order, configurations, interval_ns, self._end(),
             around,
-        )
+        )  # fmt: skip
 
     def _end(self) -> Span:
         """Where a problem of the whole program is shown: at the beginning of its first file."""

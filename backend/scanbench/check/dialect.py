@@ -396,26 +396,14 @@ RULES: dict[Allowance, Rule] = {
         "only a declaration gives all values of an array or structure",
         "`numbers[1] := 1; numbers[2] := 2;`",
     ),
-    Allowance.ADDRESS_OPERATOR: Rule(
-        "`&x` as the address of a variable",
-        "`&` joins two operands, as AND",
-        "`REF(x)`",
-    ),
+    Allowance.ADDRESS_OPERATOR: Rule("`&x` as the address of a variable", "`&` joins two operands, as AND", "`REF(x)`"),
     Allowance.OPEN_REFERENCES: Rule(
         "REF_TO ARRAY[*]: a reference to an array of any size, with its bounds",
         "what is referred to has a size",
         "`REF_TO ARRAY[0..9] OF INT`",
     ),
-    Allowance.OPEN_INPUTS: Rule(
-        "an input ARRAY[*] that is written: the array that is passed to it gets the values",
-        "a POU does not write its inputs",
-        "`VAR_IN_OUT`",
-    ),
-    Allowance.SETTING_LISTS: Rule(
-        "VAR_CONFIG outside of a CONFIGURATION",
-        "it is a part of the CONFIGURATION",
-        "`CONFIGURATION c ... VAR_CONFIG ... END_VAR END_CONFIGURATION`",
-    ),
+    Allowance.OPEN_INPUTS: Rule("inputs ARRAY[*] that are written", "an input is not written", "`VAR_IN_OUT`"),
+    Allowance.SETTING_LISTS: Rule("VAR_CONFIG outside of a CONFIGURATION", "it is a part of one", "VAR_CONFIG in it"),
     Allowance.COUNTER_WRITES: Rule(
         "assignments to the counter of a FOR loop inside of it, by `:=`, `=>` or an in-out: after each round the step is added to what it then is",
         "only the loop changes its counter",

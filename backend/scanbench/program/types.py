@@ -229,8 +229,7 @@ class Member:
     """Name of the record that declared it: a derived block has the members of its base, at the same offsets."""
     access: str = "PUBLIC"
     """PUBLIC, PROTECTED, PRIVATE or INTERNAL."""
-    retain: bool = False
-    """RETAIN or PERSISTENT."""
+    retain: bool = False  # RETAIN or PERSISTENT
     persistent: bool = False  # kept over a cold restart, too
     non_retain: bool = False
     """NON_RETAIN: not retained, even where the instance around it is."""

@@ -422,10 +422,8 @@ class File:
     globals: list[VariableSection] = field(default_factory=list)
     pous: list[PouDeclaration] = field(default_factory=list)
     configurations: list[Configuration] = field(default_factory=list)
-    settings: list[Variable] = field(default_factory=list)
-    """VAR_CONFIG outside of a CONFIGURATION."""
-    internal: list[str] = field(default_factory=list)
-    """Namespaces that are declared INTERNAL, by their full names."""
+    settings: list[Variable] = field(default_factory=list)  # VAR_CONFIG outside of a CONFIGURATION
+    internal: list[str] = field(default_factory=list)  # namespaces that are declared INTERNAL, by their full names
     stimuli: list["Stimulus"] = field(default_factory=list)
 
 

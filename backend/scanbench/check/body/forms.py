@@ -10,16 +10,30 @@ from scanbench.check.body.elements import array_bounds, index_value
 from scanbench.check.body.heap import FORMS as HEAP_FORMS
 from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
+from scanbench.check.body.references import reference_type
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.vendor_forms import UNSUPPORTED, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.check.vendor_sizes import tell_bytes
-from scanbench.program.program import Assign, Const, Expr, Index, Load, Sequence, Violates
+from scanbench.program.program import Assign, Const, Expr, Index, Load, RefOf, Sequence, Violates
 from scanbench.program.shown import shown
 from scanbench.program.sites import CheckSite, TrapKind
-from scanbench.program.types import BOOL, DINT, LINT, NULL, SLOT_BYTES, UDINT, ArrayType, OpenArray, Reference, Subrange
+from scanbench.program.types import (
+    BOOL,
+    DINT,
+    LINT,
+    NULL,
+    SLOT_BYTES,
+    UDINT,
+    ArrayType,
+    Elementary,
+    OpenArray,
+    Reference,
+    StringType,
+    Subrange,
+)
 from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 from scanbench.syntax.parse_expression import POINTER_TO
@@ -88,7 +102,20 @@ def _reference_to(body: Body, node: tree.Call, name: str) -> Expr:
     values = [argument.value for argument in node.arguments if argument.value is not None and not argument.output]
     if len(values) != 1 or len(node.arguments) != 1:
         raise body.report.reject("T004", f"`{name}` takes one variable.", node.span)
-    return refer(body, values[0], name == "ADR")
+    made = _reference_to_result(body, values[0], name == "ADR") if isinstance(values[0], tree.Call) else None
+    return refer(body, values[0], name == "ADR") if made is None else made
+
+
+def _reference_to_result(body: Body, call: tree.Call, pointer: bool) -> Expr | None:
+    """A reference to a copy of what a call gives, which lasts as a variable of the call does; None where the dialect has none."""
+    if body.pou is None or not allowed(body, Allowance.LOCAL_ADDRESSES, call.span, "The result of a call is temporary"):
+        return None
+    value = settle(body.expression(call))
+    if isinstance(value.type, Reference) or not isinstance(value.type, Elementary | StringType):
+        return None
+    copy = body.temporary(value.type, call.span)
+    body.pou.addressed = True
+    return Sequence((Assign(copy, value, call.span),), RefOf(copy, reference_type(value.type, pointer)))
 
 
 def _size_of(body: Body, node: tree.Call, name: str) -> Expr:

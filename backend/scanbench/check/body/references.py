@@ -56,7 +56,7 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
     """The value as a reference of this type, or None."""
     if isinstance(expr, Const) and expr.type == ANY_INT and expr.value == 0:
         return Const(NULL, 0)
-    if isinstance(expr.type, Reference) and _fits(expr.type, type):
+    if isinstance(expr.type, Reference) and (_fits(expr.type, type) or _takes_address(body, expr.type, type, span)):
         source = expr.type.target
         if type.target is not None and source != type.target:
             tell_bytes(body.report, body.dialect, source, span)
@@ -107,8 +107,10 @@ def compare_references(body: Body, op: str, left: Expr, right: Expr, span: Span)
                 "T002", f"A reference cannot be compared with {settle(one).type}; dereference it with `^`.", span
             )
         sides.append(made)
-    pointers = all(isinstance(side.type, Reference) and side.type.pointer for side in sides)
-    if op not in ("eq", "ne") and not pointers:
+    ordered = all(isinstance(side.type, Reference) and side.type.pointer for side in sides)
+    if op not in ("eq", "ne") and all(_may_move(side.type) for side in sides):
+        ordered = allowed(body, Allowance.POINTER_NUMBERS, span, "The order of two REF_TO is that of their addresses")
+    if op not in ("eq", "ne") and not ordered:
         raise body.report.reject("T002", "References are equal or not; they have no order.", span)
     return fold.compare(op, BOOL, sides[0], sides[1])
 
@@ -136,10 +138,32 @@ def pointer_arithmetic(body: Body, op: str, left: Expr, right: Expr, span: Span)
         return moved(body, op, right, left, span)
     if isinstance(a, Reference) and isinstance(b, Reference) and a.pointer and b.pointer and op == "sub":
         return fold.binary("sub", LINT, fold.convert(LINT, left), fold.convert(LINT, right))
+    for reference, by in ((left, right), (right, left))[: 2 if op == "add" else 1]:
+        if _may_move(reference.type) and not isinstance(by.type, Reference) and op in ("add", "sub"):
+            told = "A REF_TO moves by elements here"
+            if allowed(body, Allowance.POINTER_NUMBERS, span, told, "an index of the array"):
+                return moved(body, op, reference, by, span, of_target=True)
     raise body.report.reject(
         "T002",
         "Only a POINTER TO can be computed with: plus or minus a number of bytes, or the difference of two.",
         span,
+    )
+
+
+def _may_move(type: Type | None) -> bool:
+    """Whether this is a REF_TO data, which programs for RuSTy compute with."""
+    return isinstance(type, Reference) and not (type.pointer or type.automatic) and not _to_interface(type)
+
+
+def _takes_address(body: Body, source: Reference, target: Reference, span: Span) -> bool:
+    """Whether the dialect lets a REF_TO data take an address, or a reference to the array whose first element it means."""
+    if not _may_move(target) or target.target is None or isinstance(target.target, Record):
+        return False
+    first = isinstance(source.target, ArrayType) and source.target.element == target.target
+    if not (source.pointer or first):
+        return False
+    return allowed(
+        body, Allowance.POINTER_NUMBERS, span, f"This {source} becomes a {target}", f"`REF(...)` of {target.target}"
     )
 
 

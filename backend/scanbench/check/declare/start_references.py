@@ -176,6 +176,12 @@ def start_with(declared: Declarations, owner: Record, member: Member, given: Seq
             continue
         node, name = each.node, each.name or member.name
         if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
+            local = (
+                member.section in (Section.VAR, Section.TEMP) and Allowance.START_EXPRESSIONS in declared.dialect.allows
+            )
+            if local and isinstance(node, tree.Call) and not is_this(node):
+                _compute(declared, owner, member, StartExpression(each.offset, each.type, node))
+                continue
             raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
         if _is_interface(each.type) and not isinstance(node, tree.Call):
             used = f"`{name}` is an interface that starts with an instance"
