@@ -56,6 +56,8 @@ class Cursor:
         self.depth = 0
         self.wires: set[str] | None = None
         """In a function block diagram: the wires that were read, in upper case. Elsewhere `#x` is a variable of one vendor."""
+        self.wall = -1
+        """A word, else a name, that ends what is read now: END_RUNG, or the step after an ACTION that nothing closes."""
         self.parts = False
         """Whether a start value may name parts at any depth, `(a.b := 1, c[2] := 3)`: in the texts of one vendor."""
         self.actions: list[tuple[str, Span, list[tree.PouDeclaration]]] = []
@@ -123,7 +125,7 @@ class Cursor:
 
     def name(self, what: str) -> int:
         kind = self.kinds[self.at]
-        if kind is NAME:
+        if kind is NAME and self.at != self.wall:
             self.at += 1
             return self.at - 1
         if kind is Lex.KEYWORD:

@@ -1,16 +1,18 @@
 """Sequential function charts -> tree. A bad step or transition is reported and skipped; the next one is read as usual."""
 
-from scanbench.syntax import chart, networks, parse_expression, parse_networks, parse_statement, tree
+from scanbench.syntax import chart, half_words, networks, parse_expression, parse_networks, parse_statement, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_statement import STOPS
+from scanbench.syntax.parse_statement import DECLARATIONS, STOPS
+from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS
 
 
-def follows(c: Cursor) -> bool:
-    """Whether a step or a transition begins here; elsewhere these words are names."""
-    if c.kinds[c.at] is not NAME:
+def follows(c: Cursor, at: int | None = None) -> bool:
+    """Whether a step or a transition begins here, or at a token; elsewhere these words are names."""
+    at = c.at if at is None else at
+    if c.kinds[at] is not NAME:
         return False
-    word, second, third = c.texts[c.at].upper(), c.at + 1, c.texts[c.at + 2].upper()
+    word, second, third = c.texts[at].upper(), at + 1, c.texts[at + 2].upper()
     if word in ("STEP", "INITIAL_STEP"):
         return c.kinds[second] is NAME and third == ":"
     if word != "TRANSITION":
@@ -18,6 +20,18 @@ def follows(c: Cursor) -> bool:
     if c.kinds[second] is NAME:
         return c.texts[second].upper() == "FROM" or third in ("FROM", "(")
     return c.texts[second] == "(" and third == "PRIORITY"
+
+
+def wall(c: Cursor) -> int:
+    """The step or transition that goes on after an ACTION without END_ACTION; -1 where that is there, or nothing of a chart."""
+    at, part = c.at, -1
+    while c.texts[at] not in POU_ENDS | POU_STARTS and c.kinds[at] is not Lex.END:
+        if part < 0 and follows(c, at):
+            part = at
+        if c.texts[at].upper() in DECLARATIONS and c.kinds[at + 1] is NAME:
+            break
+        at += 1
+    return -1 if c.texts[at] == "END_ACTION" else part
 
 
 def body(c: Cursor) -> chart.Chart:
@@ -29,16 +43,30 @@ def body(c: Cursor) -> chart.Chart:
     while not _ended(c):
         before, depth = c.at, c.depth
         try:
-            if not follows(c):
-                raise c.fail("STEP, INITIAL_STEP, TRANSITION or ACTION expected: this body is a chart")
-            if c.word() == "TRANSITION":
+            word = _beginning(c)
+            if word == "TRANSITION":
                 transitions.append(_transition(c))
-            else:
-                steps.append(_step(c))
+            elif word:
+                steps.append(_step(c, word == "INITIAL_STEP"))
+            whole = whole and follows(c, before)
         except Unexpected:
             c.depth, whole = depth, False
             _skip(c, before)
     return chart.Chart(tuple(steps), tuple(transitions), c.span_from(start), whole=whole)
+
+
+def _beginning(c: Cursor) -> str:
+    """The word that begins a step or a transition; one that is half written is reported, and empty where nothing comes after it."""
+    if follows(c):
+        return c.word()
+    half = half_words.chart(c)
+    if not half:
+        raise c.fail("STEP, INITIAL_STEP, TRANSITION or ACTION expected: this body is a chart")
+    half_words.report(c, half)
+    if c.texts[c.at + 1] not in STOPS:
+        return half
+    c.take()
+    return ""
 
 
 def _ended(c: Cursor) -> bool:
@@ -58,9 +86,8 @@ def _skip(c: Cursor, before: int) -> None:
         c.take()
 
 
-def _step(c: Cursor) -> chart.Step:
-    start = c.take()
-    initial = c.texts[start].upper() == "INITIAL_STEP"
+def _step(c: Cursor, initial: bool) -> chart.Step:
+    start, told = c.take(), len(c.problems)
     name = _name(c, "the name of the step")
     head = c.span_from(start)
     c.expect(":", "after the name of the step")
@@ -68,7 +95,7 @@ def _step(c: Cursor) -> chart.Step:
     while c.word() != "END_STEP" and not _ended(c) and not follows(c):
         if not c.accept(";"):
             found.append(_association(c))
-    if not c.accept_word("END_STEP"):
+    if not c.accept_word("END_STEP") and not (c.texts[c.at] in STOPS and len(c.problems) > told):
         c.report("S003", f"END_STEP expected to close the step {name.name}{c.found()}.", c.here())
     c.accept(";")
     return chart.Step(name, initial, tuple(found), head)
@@ -91,7 +118,7 @@ def _association(c: Cursor) -> chart.Association:
     qualifier = "N"
     duration = indicator = None
     if c.accept("("):
-        if c.kinds[c.at] is NAME and c.texts[c.at + 1] in (")", ","):
+        if c.kinds[c.at] is NAME and (c.texts[c.at + 1] in (")", ",") or _half_use(c)):
             qualifier = c.word()
             c.take()
         if qualifier not in chart.QUALIFIERS:
@@ -102,11 +129,22 @@ def _association(c: Cursor) -> chart.Association:
             duration = parse_expression.expression(c)
         if c.accept(","):
             indicator = parse_expression.expression(c)
-        c.close(")", "to close the action")
+        if not c.is_(")"):  # what is missing after it belongs to the same mistake
+            c.close(")", "to close the action")
+            c.accept(";")
+            return chart.Association(action, written, qualifier, duration, indicator, c.span_from(start))
+        c.take()
     span = c.span_from(start)
     _check_duration(c, written, qualifier, duration, indicator, start)
     c.close(";", "after an action")
     return chart.Association(action, written, qualifier, duration, indicator, span)
+
+
+def _half_use(c: Cursor) -> bool:
+    """Whether a qualifier is the last word of an action that nothing closes."""
+    return c.word() in chart.QUALIFIERS and (
+        c.texts[c.at + 1] in STOPS or c.word(1) == "END_STEP" or c.texts[c.at + 1] == ";"
+    )
 
 
 def _check_duration(

@@ -61,7 +61,7 @@ def expression(c: Cursor, weakest: int = 0) -> tree.Expression:
 def operand(c: Cursor) -> tree.Expression:
     at, texts = c.at, c.texts
     kind = c.kinds[at]
-    if kind is NAME:
+    if kind is NAME and at != c.wall:
         text = texts[at]
         c.at = at + 1
         start = c.starts[at]

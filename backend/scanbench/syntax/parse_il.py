@@ -1,6 +1,6 @@
 """Instruction List (edition 3, tables 67 to 70): one instruction a line, to the same tree."""
 
-from scanbench.syntax import parse_chart, parse_expression, parse_networks, parse_statement, tree
+from scanbench.syntax import half_words, parse_chart, parse_expression, parse_networks, parse_statement, tree
 from scanbench.syntax.chart import Chart
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
@@ -33,11 +33,18 @@ OPERANDS = LITERALS | {NAME, Lex.ADDRESS}
 ENDINGS = STOPS - {""}
 
 
-def body(c: Cursor) -> "tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart":
-    """The statements of a POU, in whichever language its first line is written."""
-    if parse_networks.follows(c):
+Body = tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart
+
+
+def body(c: Cursor, first: Body = ()) -> Body:
+    """The statements of a POU, in whichever language its first line is written; `first` is what stood before a METHOD or ACTION."""
+    if c.at == c.wall or c.texts[c.at] in STOPS:
+        return ()
+    if first and c.kinds[c.at + 1] is NAME and parse_statement.declaration_follows(c):
+        return ()
+    if isinstance(first, NetworkBody) or (not first and (parse_networks.follows(c) or half_words.network(c))):
         return parse_networks.body(c)
-    if parse_chart.follows(c):
+    if isinstance(first, Chart) or (not first and (parse_chart.follows(c) or half_words.chart(c))):
         return parse_chart.body(c)
     return _il_body(c) if _il_follows(c, c.at) else parse_statement.statements(c)
 
@@ -109,7 +116,7 @@ def _il_body(c: Cursor) -> tree.IlBody:
 
 
 def _il_ended(c: Cursor) -> bool:
-    if c.ended() or c.texts[c.at] in ENDINGS:
+    if c.ended() or c.at == c.wall or c.texts[c.at] in ENDINGS:
         return True
     return c.kinds[c.at + 1] is NAME and parse_statement.declaration_follows(c)
 

@@ -1,11 +1,13 @@
 """Rungs of a ladder diagram, and function block diagrams beside them -> tree. A bad one is reported and skipped; the next one is read as usual."""
 
-from scanbench.syntax import networks, parse_diagram, parse_expression, parse_statement, tree
+from scanbench.syntax import half_words, networks, parse_diagram, parse_expression, parse_statement, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_statement import STOPS
 from scanbench.syntax.source import Stretch
 
+ENDS = frozenset(("END_RUNG", "END_NETWORK"))
+WALLS = ENDS | {"RUNG", "NETWORK"}
 MODES = {"[": ("P", "N"), "(": ("S", "R", "P", "N")}
 
 
@@ -37,13 +39,20 @@ def body(c: Cursor) -> networks.NetworkBody:
         if _at_network(c, c.at):
             found.append(network(c))
             continue
+        if half := half_words.network(c):
+            half_words.report(c, half)
+            if c.texts[c.at + 1] in STOPS - {"RETURN"}:
+                c.take()
+            else:
+                found.append(network(c, half))
+            continue
         c.report("S003", f"RUNG or NETWORK expected: this body is a diagram{c.found()}.", c.here())
         _skip(c)
     return networks.NetworkBody(tuple(found), c.span_from(start))
 
 
 def _ended(c: Cursor) -> bool:
-    if c.texts[c.at] in STOPS:
+    if c.texts[c.at] in STOPS or c.at == c.wall:
         return True
     return c.kinds[c.at + 1] is NAME and parse_statement.declaration_follows(c)
 
@@ -57,31 +66,37 @@ def _skip(c: Cursor) -> None:
         c.take()
 
 
-def network(c: Cursor) -> networks.Rung | networks.Diagram:
+def network(c: Cursor, half: str = "") -> networks.Rung | networks.Diagram:
+    """The next rung or diagram; `half` is what its first word, which was reported, means."""
     off = _is_off(c)
     start = c.take()
-    kind = c.texts[start].upper()
+    kind = half or c.texts[start].upper()
     label = ""
     if c.texts[c.at + 1] == ":":
         label = c.texts[c.at]
         c.at += 2
     if c.kinds[c.at] is Lex.STRING:
         c.take()
-    head, depth = c.span_from(start), c.depth
+    head, depth, around, told = c.span_from(start), c.depth, c.wall, len(c.problems)
     path: networks.Path = ()
     items: tuple[networks.Item, ...] = ()
     wires: tuple[networks.Wire, ...] = ()
+    c.wall = _end_of(c, around)
     try:
         if kind == "RUNG":
             path = _path(c)
         else:
             items, wires = parse_diagram.items(c, "END_NETWORK")
         if not c.accept_word(f"END_{kind}"):
+            if c.texts[c.at] in STOPS and len(c.problems) > told:
+                raise Unexpected  # what is not closed in it was reported, and nothing comes after that
             raise c.fail(f"END_{kind} expected to close the {kind} of line {c.line_of(start)}")
     except Unexpected:
-        c.depth = depth
+        c.depth, c.wall = depth, around
         if not _at_network(c, c.at) and not _ended(c) and not c.accept_word("END_RUNG", "END_NETWORK"):
             _skip(c)
+    finally:
+        c.wall = around
     for at, text in c.pragmas:
         if c.starts[start] < at < c.end_of(c.at - 1) and _says_off(text):
             place = Stretch(c.source, at, at + len(text))
@@ -89,6 +104,17 @@ def network(c: Cursor) -> networks.Rung | networks.Diagram:
     if kind == "NETWORK":
         return networks.Diagram(label, items, wires, off, head)
     return networks.Rung(label, path, off, head)
+
+
+def _end_of(c: Cursor, around: int) -> int:
+    """The word on a line of its own that ends the network here, the next network where that is missing, or what ends all around."""
+    at, texts, kinds = c.at, c.texts, c.kinds
+    while texts[at] not in STOPS and at != around:
+        if kinds[at] is NAME and texts[at].upper() in WALLS and half_words.first_of_line(c, at):
+            if texts[at].upper() in ENDS or _at_network(c, at):
+                return at
+        at += 1
+    return around
 
 
 def _is_off(c: Cursor) -> bool:
@@ -222,4 +248,18 @@ def _argument(c: Cursor) -> tree.Argument | networks.Branch:
     if c.texts[value] == "<" and name is not None and not output:
         c.at = value
         return networks.Branch(name, _parallel(c), c.span_from(start))
+    _refuse_power(c, value)
     return parse_expression.argument(c)
+
+
+def _refuse_power(c: Cursor, at: int) -> None:
+    """Refuses `NOT ~` and its like: the power is no operand."""
+    while c.texts[at] not in (",", ")", ";", "") and at != c.wall:
+        if c.texts[at] == networks.POWER:
+            message = (
+                "`~` is the power itself and stands alone: set a BOOL by a coil before the box, `(x)` or `(/ x)`, "
+                "and write that here."
+            )
+            c.report("S003", message, c.span_of(at))
+            raise Unexpected
+        at += 1

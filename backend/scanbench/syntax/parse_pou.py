@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from scanbench.problems import Span
-from scanbench.syntax import parse_declaration, parse_il, parse_type, tree
+from scanbench.syntax import parse_chart, parse_declaration, parse_il, parse_type, tree
 from scanbench.syntax.chart import Chart, variables
 from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.lexer import Lex
@@ -56,7 +56,7 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         if c.word() in MEMBERS and c.kinds[c.at + 1] is NAME:
             methods += member(c, kind)
             continue
-        body = _joined(body, _whole_body(c))
+        body = _joined(body, _whole_body(c, body))
         if c.at == before:
             break
     if body and kind in ("CLASS", "INTERFACE"):
@@ -66,7 +66,7 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         body = replace(body, owner=c.texts[name])
         sections += memories(body) if kind in ("PROGRAM", "FUNCTION_BLOCK") else ()
     if isinstance(body, Chart):
-        body = replace(body, owner=c.texts[name])
+        body = replace(body, owner=c.texts[name], whole=body.whole and c.is_(ENDS[kind]))
         sections += (*variables(body), *memories(body.conditions)) if kind in ("PROGRAM", "FUNCTION_BLOCK") else ()
     _pou_end(c, kind, name)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
@@ -115,14 +115,14 @@ def _span_of(c: Cursor, pragma: InOutPragma) -> Span:
     return Stretch(c.source, pragma.start, pragma.end)
 
 
-def _whole_body(c: Cursor) -> Body:
-    """A body; what closes a block that was never opened is reported, and the body goes on."""
-    body = parse_il.body(c)
+def _whole_body(c: Cursor, first: Body = ()) -> Body:
+    """A body, or what follows its `first` part; what closes a block that was never opened is reported, and the body goes on."""
+    body = parse_il.body(c, first)
     while c.texts[c.at] in BLOCK_ENDS:
         stray = c.take()
         c.report("S003", f"`{c.texts[stray]}` without its beginning.", c.span_of(stray))
         c.accept(";")
-        body = _joined(body, parse_il.body(c))
+        body = _joined(body, parse_il.body(c, body or first))
     return body
 
 
@@ -239,6 +239,9 @@ def member(c: Cursor, owner: str) -> list[tree.PouDeclaration]:
     """A METHOD, ACTION or PROPERTY."""
     first = c.take()
     word = c.texts[first].upper()
+    if word == "ACTION" and parse_chart.follows(c):
+        c.report("S003", f"the name of the ACTION expected{c.found()}.", c.here())
+        return []
     if word == "ACTION":
         return [_action(c)]
     access, modifiers = _modifiers(c)
@@ -267,7 +270,9 @@ def _action(c: Cursor) -> tree.PouDeclaration:
     """A method without variables of its own."""
     name = c.name("the name of the ACTION")
     c.accept(":")
+    c.wall = parse_chart.wall(c)
     body = _whole_body(c)
+    c.wall = -1
     if not c.accept("END_ACTION"):
         _missing(c, "END_ACTION", f"ACTION {c.texts[name]}")
     c.accept(";")
@@ -372,7 +377,7 @@ def _joined(first: Body, second: Body) -> Body:
         if isinstance(span, Stretch) and isinstance(second.span, Stretch):
             span = Stretch(span.source, span.start, second.span.end)  # actions between them are part of the chart
         steps, transitions = first.steps + second.steps, first.transitions + second.transitions
-        return replace(first, steps=steps, transitions=transitions, span=span)
+        return replace(first, steps=steps, transitions=transitions, span=span, whole=first.whole and second.whole)
     if isinstance(first, tuple) and isinstance(second, tuple):
         return first + second
     return first

@@ -45,7 +45,7 @@ def statements(c: Cursor, labels: bool = False) -> tuple[tree.Statement, ...]:
             c.at += 1
             continue
         name = kinds[before] is NAME
-        if name and kinds[before + 1] is NAME and declaration_follows(c):
+        if name and (before == c.wall or (kinds[before + 1] is NAME and declaration_follows(c))):
             break
         if labels and _at_label(c):
             break
@@ -73,7 +73,7 @@ def _skip(c: Cursor, before: int) -> None:
     if c.at == before:
         c.take()
     line = c.line_of(c.at - 1)
-    while (text := c.texts[c.at]) not in STOPS and text not in STARTS:
+    while (text := c.texts[c.at]) not in STOPS and text not in STARTS and c.at != c.wall:
         if c.kinds[c.at] is NAME and c.line_of(c.at) > line:
             if c.texts[c.at + 1] in (":=", "(", ".", "[") or declaration_follows(c):
                 return

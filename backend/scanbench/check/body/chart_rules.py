@@ -9,28 +9,46 @@ from scanbench.syntax import chart
 
 MOST_MARKINGS = 5_000
 """Sets of active steps that are looked at; nothing is said of what a larger chart can reach."""
+MOST_LOST = 3
+"""Steps that are told one by one."""
 Marking = frozenset[str]
 
 
 def check_chart(body: Body, written: chart.Chart) -> None:
     """Reports what is wrong. A POU that keeps nothing between two calls cannot have a chart at all."""
-    if body.pou is None or body.pou.kind not in ("program", "function_block"):
+    kind = "" if body.pou is None else body.pou.kind
+    if kind == "function" and body.scope.instance is None:
         raise body.report.reject(
             "T010",
             "A chart remembers its steps, and this keeps nothing; write it in a PROGRAM or FUNCTION_BLOCK.",
             written.span,
         )
+    if kind not in ("program", "function_block"):
+        raise body.report.reject(
+            "T010",
+            "An ACTION or METHOD has no chart. Put the chart into a FUNCTION_BLOCK, declare an instance of that, and call it here.",
+            written.span,
+        )
     known = {each.name.name.upper() for each in written.steps}
-    _check_initial(body, written)
+    if written.whole:
+        _check_initial(body, written)
+        _check_names(body, written, known)
+    markings = reachable(written)
+    if markings is not None:
+        _check_reached(body, written, markings)
+    for use in chart.uses(written):
+        if use.name.upper() in known:
+            message = f"`{use.name}` is a step, so an action has a different name; rename one."
+            raise body.report.reject("T010", message, use.first.span)
+    _check_actions(body, written, markings)
+
+
+def _check_names(body: Body, written: chart.Chart, known: set[str]) -> None:
     for transition in written.transitions:
         for name in (*transition.sources, *transition.targets):
             if name.name.upper() not in known:
                 hint = body.report.near(name.name, lambda: [each.name.name for each in written.steps], "step")
                 body.report.error("T001", f"There is no step `{name.name}`.{hint}", name.span)
-    markings = reachable(written)
-    if markings is not None:
-        _check_reached(body, written, markings)
-    _check_actions(body, written, markings)
 
 
 def _check_initial(body: Body, written: chart.Chart) -> None:
@@ -67,9 +85,31 @@ def _check_reached(body: Body, written: chart.Chart, markings: set[Marking]) -> 
     reached = frozenset[str]().union(*markings)
     if not written.whole or not any(each.initial for each in written.steps):
         return
-    for step in written.steps:
-        if step.name.name.upper() not in reached:
-            body.report.warn("W001", f"Nothing leads to the step `{step.name.name}`; it is never active.", step.span)
+    lost = [each for each in written.steps if each.name.name.upper() not in reached]
+    if lost and not written.transitions:
+        message = (
+            "This chart has no transition, so it never leaves its initial step. "
+            f"Write TRANSITION FROM a TO {lost[0].name.name} := condition; END_TRANSITION."
+        )
+        body.report.warn("W001", message, lost[0].span)
+        return
+    caused = [each for each in lost if not _follows_lost(each, written, reached)] or lost[:1]
+    if len(caused) > MOST_LOST:
+        names = ", ".join(f"`{each.name.name}`" for each in caused)
+        body.report.warn("W001", f"Nothing leads to the steps {names}; they are never active.", caused[0].span)
+        return
+    for step in caused:
+        body.report.warn("W001", f"Nothing leads to the step `{step.name.name}`; it is never active.", step.span)
+
+
+def _follows_lost(step: chart.Step, written: chart.Chart, reached: frozenset[str]) -> bool:
+    """Whether a transition leads to it from a different step that is never active, so that its mistake is the one to tell."""
+    own = step.name.name.upper()
+    for each in written.transitions:
+        sources = {source.name.upper() for source in each.sources} - {own}
+        if own in (target.name.upper() for target in each.targets) and sources - reached:
+            return True
+    return False
 
 
 def _check_actions(body: Body, written: chart.Chart, markings: set[Marking] | None) -> None:

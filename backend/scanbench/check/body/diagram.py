@@ -4,6 +4,7 @@ A wire is a hidden temporary with the name that it is written with, `#low`; one 
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.body import fold
@@ -13,7 +14,7 @@ from scanbench.check.body.enabling import enabling, told
 from scanbench.check.body.il_operands import type_of
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.context import Rejected
-from scanbench.problems import Span
+from scanbench.problems import Severity, Span
 from scanbench.program.types import BOOL, Record, Type, has_instance
 from scanbench.program.untyped import settle
 from scanbench.syntax import networks, tree
@@ -142,7 +143,16 @@ class FunctionBlocks:
         if wire.type is not None and not wire.loop:
             self._code.wire(wire.name, self._body.declarations.type_of(wire.type), wire.span)
         if wire.type is not None or wire.loop:
-            self._code.run(tree.Assignment(item.target, value, item.span))
+            mark = self._report.mark()
+            with suppress(Rejected):  # told below, or reported
+                self._code.run(tree.Assignment(item.target, value, item.span))
+            found_wrong = self._report.problems[mark[0] :]
+            if wire.type is None and any(each.code == "T002" and "BOOL" in each.message for each in found_wrong):
+                self._report.undo(mark)
+                message = f"`{wire.name}` is read above its line, so it is BOOL unless the line says a type: write `{wire.name} : INT = ...`."
+                raise self._report.reject("T002", message, wire.span)
+            if any(each.severity is Severity.ERROR for each in found_wrong):
+                raise Rejected
             return
         found = settle(self._body.expression(value))
         if found.type is None or has_instance(found.type):
