@@ -44,7 +44,7 @@ def run(server: Server, instance: int, scans: int) -> int:
     with server.browser(instance) as browser:
         end = int(browser.ask(type="run", action="continue", speed=0, scans=scans)["scan"]) + scans
         browser.wait(
-            lambda: any(each["type"] == "state" and _paused_at(each["state"], end) for each in browser.messages), 30
+            lambda: any(each["type"] == "state" and _paused_at(each["state"], end) for each in browser.messages)
         )
     return end
 
