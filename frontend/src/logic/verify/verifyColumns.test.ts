@@ -100,6 +100,13 @@ describe("tracks", () => {
     expect(wholeWidth(tracks)).toBe((tracks.at(-1)?.left ?? 0) + (tracks.at(-1)?.width ?? 0));
   });
 
+  it("have room for the whole number of a scan", () => {
+    const scan = (scanLength?: number) =>
+      tracksOf([], [], { ...PLAIN, ...(scanLength ? { scanLength } : {}) })[1]?.width;
+    expect(scan("9,999".length)).toBe(scan());
+    expect(scan("1,450,432,069".length)).toBeGreaterThanOrEqual(18 + 13 * 7.3);
+  });
+
   it("keep the visible part in place when columns are inserted before it", () => {
     const of = (count: number) =>
       tracksOf(

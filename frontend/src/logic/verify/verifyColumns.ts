@@ -112,7 +112,12 @@ function widthOf({ column, side }: Unit): number {
 interface TableKind {
   instances: boolean;
   steps: boolean;
+  /** How long the longest scan number is, as it is written. */
+  scanLength?: number;
 }
+
+/** Long scan numbers are never cut: without its first digits a number is a different one. */
+const scanWidth = (length: number) => Math.max(FIXED.scan, 18 + 8 * length);
 
 /** The columns that identify a row stay visible on the left, followed by the pinned units. `widths` are those that somebody chose. */
 export function tracksOf(
@@ -129,7 +134,7 @@ export function tracksOf(
     left += width;
   };
   const fixed = (sticky: boolean, ...all: (keyof typeof FIXED)[]) => {
-    for (const of of all) add(of, of, FIXED[of], sticky);
+    for (const of of all) add(of, of, of === "scan" ? scanWidth(kind.scanLength ?? 0) : FIXED[of], sticky);
   };
   const put = (unit: Unit, sticky: boolean) => {
     const width = widthOf(unit);

@@ -9,6 +9,7 @@ import {
   useRef,
   useState,
 } from "react";
+import { grouped } from "../../../logic/format/numbers";
 import { firstDifferingUnit, isGoing, ranIn } from "../../../logic/verify/verify";
 import {
   arranged,
@@ -54,6 +55,10 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const arrangement = useArrangement(info.title);
   const units = useMemo(() => unitsOf(rows.columns), [rows.columns]);
   const steps = useMemo(() => [...rows.byIndex.values()].some(({ kind }) => kind === "step"), [rows.byIndex]);
+  const scanLength = useMemo(
+    () => grouped([...rows.byIndex.values()].reduce((last, { scan }) => Math.max(last, scan), 0)).length,
+    [rows.byIndex],
+  );
   const kept = useWidths("verification");
   const { grip } = useColumns(kept);
   const tracks = useMemo(
@@ -61,10 +66,10 @@ export function Table({ shown }: { shown: ShownVerification }) {
       tracksOf(
         arranged(units, arrangement),
         arrangement.pinned,
-        { instances: info.instances.length > 1, steps },
+        { instances: info.instances.length > 1, steps, scanLength },
         kept.widths,
       ),
-    [units, arrangement, info.instances.length, steps, kept.widths],
+    [units, arrangement, info.instances.length, steps, scanLength, kept.widths],
   );
   const { open, menu } = useMenu(t("verify.column"));
   const across = useAcross(grid);
