@@ -13,12 +13,10 @@ interface WrittenBy {
 /** What a force did in the last scan: it changes all the time, so it is stored separately. */
 type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
-/** A force of yours that somebody else replaced, or ended. */
+/** A force of yours that somebody else replaced, or ended. What is forced there now is among those held. */
 interface Taken {
   path: string;
   by: string;
-  /** Null: nothing is forced there now. */
-  value: string | null;
   mine: string;
 }
 
@@ -67,15 +65,14 @@ function takenNow(
 ): Forces["taken"] {
   const you = usePlc.getState().you?.name;
   const taken = new Map(known);
-  for (const { path, author, value } of forces) {
+  for (const { path, author } of forces) {
     const was = before.get(path.toUpperCase());
     if (author === you) taken.delete(path);
-    else if (was && was.author === you) taken.set(path, { path, by: author, value, mine: was.value });
+    else if (was && was.author === you) taken.set(path, { path, by: author, mine: was.value });
   }
   for (const { path, by } of ended) {
     const was = before.get(path.toUpperCase());
-    if (was && was.author === you && by !== you)
-      taken.set(was.path, { path: was.path, by, value: null, mine: was.value });
+    if (was && was.author === you && by !== you) taken.set(was.path, { path: was.path, by, mine: was.value });
   }
   return taken;
 }

@@ -285,3 +285,23 @@ test("a force of yours that somebody else replaces is told, until you have read 
   held("Mika", "TRUE");
   await waitFor(() => expect(screen.queryByText(said)).toBeNull());
 });
+
+test("a force that replaced yours is told as long as it holds; then that yours was ended is", async () => {
+  const { server } = await openBanners();
+  const force = { path: "Main.stop", through: "", scan: 5, before: "", after_program: "", after: "" };
+  const held = (author: string, value: string) =>
+    server.say({ type: "forces", forces: [{ ...force, author, value }], ended: [] });
+  const released = (by: string) => server.say({ type: "forces", forces: [], ended: [{ path: force.path, by }] });
+  const said = (by: string, value: string) => t("force.taken", { by, path: force.path, value, mine: "TRUE" });
+  const over = t("force.ended", { by: "Aki", path: force.path, mine: "TRUE" });
+  held("Mika", "TRUE");
+  held("Aki", "FALSE");
+  await screen.findByText(said("Aki", "FALSE"));
+  released("Jo");
+  await screen.findByText(over);
+  expect(screen.queryByText(said("Aki", "FALSE"))).toBeNull();
+  expect(screen.getAllByRole("status", { name: t("force.ended.label") })).toHaveLength(1);
+  held("Jo", "TRUE");
+  await screen.findByText(said("Jo", "TRUE"));
+  expect(screen.queryByText(over)).toBeNull();
+});
