@@ -220,7 +220,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
 
   const take = (what: "copy" | "cut", at: Cursor) => (chosen ? choosing[what]() : editing[what](at));
   const context = useDrawingMenu({
-    ...{ drawn, readOnly, sheet, press, take, isChosen: choosing.holds },
+    ...{ path, drawn, readOnly, sheet, press, take, isChosen: choosing.holds, can: editing.can },
     go: (to) => {
       choosing.clear();
       setCursor(to);

@@ -5,7 +5,7 @@ import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { type TextKey, t } from "../../../../text";
 import type { IconName } from "../../../../ui/Icon";
 import type { MenuItem } from "../../../../ui/Menu";
-import { FORCE, operandAt } from "./operand";
+import { FORCE, type Forcing, operandAt } from "./operand";
 
 interface Entry {
   key: string;
@@ -61,34 +61,54 @@ const CLIPBOARD: readonly Entry[] = [
   { key: "Delete", shown: "Del", word: "graphic.menu.delete", icon: "trash" },
 ];
 
-const OPERAND: readonly Entry[] = [
-  { key: "Ctrl+Alt+W", word: "graphic.menu.watch" },
+/** Where no element is meant: as it is said of the whole part. */
+const WHOLE: Partial<Record<TextKey, Partial<Record<DrawnPart["kind"], Entry>>>> = {
+  "graphic.menu.contact": { rung: { key: "c", word: "graphic.menu.contact.start" } },
+  "graphic.menu.closed": { rung: { key: "/", word: "graphic.menu.closed.start" } },
+  "graphic.menu.box": { rung: { key: "f", word: "graphic.menu.box.start" } },
+  "graphic.menu.coil": { rung: { key: "o", word: "graphic.menu.coil.end" } },
+  "graphic.menu.set": { rung: { key: "s", word: "graphic.menu.set.end" } },
+  "graphic.menu.reset": { rung: { key: "r", word: "graphic.menu.reset.end" } },
+  "graphic.menu.delete": {
+    rung: { key: "Ctrl+Delete", shown: "Ctrl+Del", word: "graphic.menu.delete.rung", icon: "trash" },
+    network: { key: "Ctrl+Delete", shown: "Ctrl+Del", word: "graphic.menu.delete.network", icon: "trash" },
+  },
+};
+
+/** There is nothing for a contact to be below of. */
+const OF_ELEMENTS: readonly TextKey[] = ["graphic.menu.below"];
+
+const WATCH: Entry = { key: "Ctrl+Alt+W", word: "graphic.menu.watch" };
+const TO: readonly Entry[] = [
   { key: FORCE.true, shown: "", word: "graphic.menu.force.true" },
   { key: FORCE.false, shown: "", word: "graphic.menu.force.false" },
-  { key: FORCE.release, shown: "", word: "graphic.menu.release" },
+];
+const RELEASE: Entry = { key: FORCE.release, shown: "", word: "graphic.menu.release" };
+const USES: readonly Entry[] = [
   { key: "Shift+F12", word: "graphic.menu.writer" },
   { key: "Ctrl+Alt+R", word: "graphic.menu.uses" },
 ];
 const RENAME: Entry = { key: "Ctrl+F2", word: "graphic.menu.rename" };
 const BREAKPOINT: Entry = { key: "F9", word: "graphic.menu.breakpoint", icon: "bp" };
 
-/** What can be done at a place of a part; without a place with all of it. `press` does what the key of that name does. */
-export function menuOf(
-  part: DrawnPart | undefined,
-  place: Place,
-  readOnly: boolean,
-  press: (key: string) => void,
-): MenuItem[] {
+interface Can {
+  readOnly: boolean;
+  forcing: Forcing;
+  /** Whether the key of that name means something at the place. */
+  can: (key: string) => boolean;
+  /** Does what the key of that name does. */
+  press: (key: string) => void;
+}
+
+/** What can be done at a place of a part; without a place with all of it. */
+export function menuOf(part: DrawnPart | undefined, place: Place, { readOnly, forcing, can, press }: Can): MenuItem[] {
   if (!part) return [];
-  const at = place.length > 0;
-  const variable = operandAt(part, place) !== null;
-  const modes = at && part.kind !== "chart" ? MODE : [];
-  const edits = [at ? [NAME, ...modes] : [], INSERT[part.kind], CLIPBOARD, !at && part.kind !== "chart" ? HEAD : []];
-  const groups: (readonly Entry[])[] = [
-    ...(readOnly ? [[COPY]] : edits),
-    variable ? [...OPERAND, ...(readOnly ? [] : [RENAME])] : [],
-    at ? [BREAKPOINT] : [],
-  ];
+  const groups = readOnly ? [[COPY]] : editsOf(part, place, can);
+  if (operandAt(part, place)) {
+    const forces = [...(forcing.bool ? TO : []), ...(forcing.forced ? [RELEASE] : [])];
+    groups.push([WATCH, ...forces, ...USES, ...(readOnly ? [] : [RENAME])]);
+  }
+  if (place.length > 0) groups.push([BREAKPOINT]);
   return groups.flatMap((entries, group) =>
     entries.map(({ key, word, icon, shown }, index) => ({
       label: t(word),
@@ -98,4 +118,13 @@ export function menuOf(
       onSelect: () => press(key),
     })),
   );
+}
+
+function editsOf(part: DrawnPart, place: Place, can: Can["can"]): Entry[][] {
+  const at = place.length > 0;
+  const modes = at && part.kind !== "chart" ? MODE : [];
+  const groups = [at ? [NAME, ...modes] : [], INSERT[part.kind], CLIPBOARD, !at && part.kind !== "chart" ? HEAD : []];
+  const said = (entry: Entry) => (at ? entry : (WHOLE[entry.word]?.[part.kind] ?? entry));
+  const means = ({ key, word }: Entry) => (at || !OF_ELEMENTS.includes(word)) && (key.startsWith("Ctrl+") || can(key));
+  return groups.map((entries) => entries.map(said).filter(means));
 }

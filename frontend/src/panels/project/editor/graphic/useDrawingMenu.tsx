@@ -7,9 +7,11 @@ import { t } from "../../../../text";
 import { useMenu } from "../../../../ui/Menu";
 import { cursorAt } from "./find";
 import { menuOf } from "./menu";
+import { type Forcing, forcingAt, NO_FORCING } from "./operand";
 import type { Cursor } from "./useEditing";
 
 interface Asked {
+  path: string;
   drawn: readonly DrawnPart[];
   readOnly: boolean;
   sheet: { current: HTMLElement | null };
@@ -17,6 +19,8 @@ interface Asked {
   go: (to: Cursor) => void;
   /** The id of the element of the cursor. */
   idOf: (cursor: Cursor) => string;
+  /** Whether a key means something there. */
+  can: (key: string, at: Cursor) => boolean;
   /** What a key does; false where it does nothing. */
   press: (key: string, at: Cursor) => boolean;
   /** The text of what is copied or cut; null where there is nothing. */
@@ -26,18 +30,26 @@ interface Asked {
   onRefused: () => void;
 }
 
-export function useDrawingMenu({ drawn, readOnly, sheet, isChosen, go, idOf, press, ...does }: Asked) {
+export function useDrawingMenu({ path, drawn, readOnly, sheet, isChosen, go, idOf, can, press, ...does }: Asked) {
   const { open, menu } = useMenu(t("graphic.menu"));
 
   function show(at: Cursor, point: { x: number; y: number }): void {
-    const items = menuOf(drawn[at.rung], at.place, readOnly, (key) => {
+    const part = drawn[at.rung];
+    const opened = (forcing: Forcing) => {
+      const items = menuOf(part, at.place, { readOnly, forcing, can: (key) => can(key, at), press: pressAt(at) });
+      if (items.length > 0) open(items, point);
+    };
+    forcingAt(path, part, at.place).then(opened, () => opened(NO_FORCING));
+  }
+
+  function pressAt(at: Cursor): (key: string) => void {
+    return (key) => {
       // The keys act where the drawing has the focus; a field that opens takes it then.
       sheet.current?.focus();
       if (key === "Ctrl+C" || key === "Ctrl+X" || key === "Ctrl+V") clip(key, at).catch(does.onRefused);
       else if (key === "F9") toggleBreakpointHere();
       else press(key, at);
-    });
-    if (items.length > 0) open(items, point);
+    };
   }
 
   /** What a key does by an event of the browser's, which no menu can give. */

@@ -1,15 +1,12 @@
 import { type KeyboardEvent, useState } from "react";
-import { chartEdit } from "../../../../logic/graphic/chartKeys";
 import { copied, networksOf, pasted } from "../../../../logic/graphic/clip";
-import { diagramEdit } from "../../../../logic/graphic/diagramKeys";
 import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit";
-import { headEdit } from "../../../../logic/graphic/head";
-import { rungEdit } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { readRung } from "../../../../logic/graphic/ladderRead";
 import { networksIn } from "../../../../logic/graphic/networks";
 import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import type { TextKey } from "../../../../text";
+import { canPress, madeOf } from "./made";
 import { addPart, putParts, removeParts, switchParts, takeBack, writePart } from "./write";
 
 export interface Cursor {
@@ -122,7 +119,13 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return made;
   }
 
-  return { named, refused, refuse: setRefused, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
+  /** Whether a key means something at the cursor. */
+  function can(key: string, { rung: at, place }: Cursor): boolean {
+    const part = drawn[at];
+    return part !== undefined && canPress(part, key, place, around);
+  }
+
+  return { named, refused, refuse: setRefused, can, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
 }
 
 /** A part with the text that was just written for it, before it is drawn. */
@@ -152,17 +155,3 @@ export function keyOf({ key, ctrlKey, altKey, shiftKey, code }: KeyboardEvent): 
 
 const emptied = (part: DrawnPart, key: string) =>
   (key === "Delete" || key === "Backspace") && part.readable && stopsOf(part).length === 0;
-
-function madeOf(part: DrawnPart, key: string, place: Place, around: (part: DrawnPart) => Around): Made {
-  const { found } = part;
-  const { text, head, indent } = found;
-  const made = part.kind === "chart" ? null : headEdit(found, key, place);
-  if (made) return made;
-  if (part.kind === "network") return diagramEdit(text, key, place, around(part));
-  if (part.kind === "chart") return chartEdit(found, key, place, around(part));
-  const { path, comments } = part;
-  // Where a letter with Shift means nothing else it means the letter.
-  const plain = /^Shift\+[fj#]$/i.test(key) ? key : key.replace("Shift+", "");
-  if (path !== null) return rungEdit({ head, path, indent, comments }, plain, place);
-  return rungEdit({ head, path: [], indent, comments: false }, plain, []) && { refused: "graphic.refused.unread" };
-}
