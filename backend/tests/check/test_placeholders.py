@@ -59,7 +59,7 @@ def test_use_says_what_a_library_declares() -> None:
     assert [each for each in problems if each.severity is Severity.ERROR] == []
     one = " ".join(text.split())
     assert (
-        "FUNCTION_BLOCK FB_Drive {stub} VAR_INPUT enable : BOOL; speed : REAL; recipe : ST_Recipe; status : FB_Drive_status_Placeholder; cycles : DINT; END_VAR VAR_OUTPUT done : BOOL; END_VAR"
+        "FUNCTION_BLOCK FB_Drive {stub} VAR_INPUT enable : BOOL; speed : REAL; recipe : ST_Recipe; END_VAR VAR_OUTPUT done : BOOL; status : FB_Drive_status_Placeholder; cycles : DINT; END_VAR"
         in one
     )
     assert "FUNCTION_BLOCK FB_Device {stub} VAR_INPUT bEnabled : BOOL; END_VAR" in one
@@ -111,3 +111,88 @@ END_PROGRAM
     assert [each for each in problems if each.severity is Severity.ERROR] == []
     assert "FUNCTION_BLOCK FB_Drive IMPLEMENTS I_Drive" in text
     assert "N : DINT := 2;" in text
+
+
+STATION = """FUNCTION_BLOCK FB_Station
+VAR lift : Parts.FB_Motor; ready : BOOL; text : STRING(80); END_VAR
+lift(enable := TRUE);
+CASE lift.eState OF
+  Parts.E_MotorState.Stopped: ready := FALSE;
+  Parts.E_MotorState.Running: ready := TRUE;
+  Parts.E_MotorState.Fault: text := lift.sError;
+END_CASE
+CASE lift.kind OF Parts.Kind.Slow: ready := FALSE; Parts.Kind.Fast: ready := TRUE; END_CASE
+IF lift.bRunning AND lift.fTorque > 12.5 THEN ready := FALSE; END_IF
+END_FUNCTION_BLOCK
+"""
+
+
+def test_values_of_an_enumeration_with_the_name_of_the_library_before_them() -> None:
+    for machine in (
+        STATION,
+        STATION.replace("VAR lift", "VAR state : Parts.E_MotorState; lift").replace(
+            "CASE lift.eState",
+            "state := lift.eState;\nIF state = Parts.E_MotorState.Stopped THEN ; END_IF\nCASE lift.eState",
+        ),
+    ):
+        text, _, problems = checked(
+            f"{machine}PROGRAM MAIN\nVAR station : FB_Station; END_VAR\nstation();\nEND_PROGRAM\n"
+        )
+        assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
+        one = " ".join(text.split())
+        assert "{attribute 'qualified_only'} E_MotorState : (Stopped, Running, Fault);" in one
+        assert "Kind : (Slow, Fast);" in one
+        assert one.count("E_MotorState :") == 1
+        assert (
+            "VAR_INPUT enable : BOOL; END_VAR VAR_OUTPUT eState : E_MotorState; sError : STRING[80]; kind : Kind; bRunning : BOOL; fTorque : LREAL; END_VAR"
+            in one
+        )
+
+
+def test_what_others_write_or_are_lent_is_no_output() -> None:
+    machine = """FUNCTION_BLOCK FB_Count
+VAR_IN_OUT n : DINT; END_VAR
+n := n + 1;
+END_FUNCTION_BLOCK
+PROGRAM MAIN
+VAR motor : Parts.FB_Motor; count : FB_Count; END_VAR
+motor(enable := TRUE);
+count(n := motor.nCount);
+motor.stSetting.rSpeed := 1.5;
+motor.anList[1] := 3;
+FOR motor.nIndex := 1 TO 3 DO ; END_FOR
+IF motor.done THEN ; END_IF
+END_PROGRAM
+"""
+    text, _, problems = checked(machine)
+    assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
+    assert "VAR_OUTPUT done : BOOL; END_VAR" in " ".join(text.split())
+
+
+def test_a_type_that_only_goes_to_itself() -> None:
+    machine = """PROGRAM MAIN
+VAR motor : Parts.FB_Motor; one : Parts.T_Handle; two : Parts.T_Other; END_VAR
+motor(one := one);
+one := motor.h;
+motor.g := two;
+two := motor.g;
+END_PROGRAM
+"""
+    _, _, problems = checked(machine)
+    assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
+
+
+def test_variables_of_a_list_with_the_name_of_the_library_before_it() -> None:
+    machine = """PROGRAM MAIN
+VAR count : FB_Count; END_VAR
+count(n := Parts.GVL_Parts.nCount);
+Parts.GVL_Parts.stState.rSpeed := 1.5;
+END_PROGRAM
+FUNCTION_BLOCK FB_Count
+VAR_IN_OUT n : DINT; END_VAR
+n := n + 1;
+END_FUNCTION_BLOCK
+"""
+    text, _, problems = checked(machine)
+    assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
+    assert "GVL_Parts : GVL_Parts_Placeholder;" in text

@@ -19,6 +19,8 @@ def look(world: World, files: Iterable[tree.File]) -> None:
             _declarations(world, section.variables, Body(world, _NOBODY), "CONSTANT" in section.qualifiers)
         for pou in file.pous:
             _pou(world, pou)
+    for key in world.unknown_globals.keys() & world.unknown.keys():
+        del world.unknown_globals[key]  # the name of a type, which a use further down told
     for unknown in world.unknown.values():
         for interface in filter(None, map(world.unknown.get, unknown.gives)):
             for key in interface.members.keys() & unknown.members.keys() if interface.interface else ():

@@ -82,6 +82,8 @@ class Member:
     """It is an input, or written from outside."""
     output: bool = False
     """It is taken by `=>`."""
+    open: bool = False
+    """Others than its block may write it, or a part of it: an heir, or what it is given to as VAR_IN_OUT."""
 
     def __post_init__(self) -> None:
         self.shape.names.add(self.name)

@@ -112,12 +112,23 @@ class Writer:
             yield from self._block(unknown)
         elif unknown.values:
             yield f"TYPE\n  {{attribute 'qualified_only'}}\n  {unknown.name} : ({', '.join(unknown.values.values())});\nEND_TYPE"
-        elif not unknown.members and (unknown.shape.known is not None or unknown.shape.literal is not None):
+        elif not unknown.members and self._is_alias(unknown):
             yield f"TYPE {unknown.name} : {self.type(unknown.shape, unknown.name)}; END_TYPE"
         else:
             yield f"TYPE {unknown.name} : STRUCT"
             yield from (f"  {line}" for line in self._members(unknown, unknown.members.values()))
             yield "END_STRUCT; END_TYPE" if unknown.members else "  Stub_Nothing : BYTE;\nEND_STRUCT; END_TYPE"
+
+    def _is_alias(self, unknown: Unknown) -> bool:
+        """Whether it is no more than a name of another type, which is not a name of this one in its turn."""
+        seen: set[int] = set()
+        one: object = unknown
+        while isinstance(one, Unknown) and one.shape.known is not None:
+            if id(one) in seen:
+                return False
+            seen.add(id(one))
+            one = self.world.resolved(one.shape.known)
+        return unknown.shape.known is not None or unknown.shape.literal is not None
 
     def _is_block(self, unknown: Unknown) -> bool:
         """By its name, or as an interface is given one."""
@@ -139,7 +150,7 @@ class Writer:
         yield f"FUNCTION_BLOCK {unknown.name}{f' IMPLEMENTS {names}' if names else ''}"
         yield "{stub}"
         members = [each for key, each in unknown.members.items() if key not in properties]
-        others = [each for each in members if each.output or not (each.written or self._copied(each))]
+        others = [each for each in members if each.output or not (each.written or (each.open and self._copied(each)))]
         results = [
             f"Stub_{it.name} : {self.type(it.shape, f'{each.name}_{it.name}')};" for each, it in properties.values()
         ]

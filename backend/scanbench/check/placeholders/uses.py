@@ -53,11 +53,13 @@ class Body:
                 subject = self.of(selector)
                 for labels, inner in cases:
                     for label in (one for pair in labels for one in pair if one is not None):
+                        self._label(label)
                         join(subject, self.of(label))
                     self.statements(inner)
                 self.statements(orelse)
             case tree.ForStatement(variable=variable, start=start, end=end, step=step, body=inner):
                 counter = self.of(variable)
+                self._written(variable)
                 for bound in (start, end, *([] if step is None else [step])):
                     join(counter, self.of(bound))
                 self.statements(inner)
@@ -79,6 +81,8 @@ class Body:
         for target in targets:
             taken = self.of(target)
             self._written(target)
+            if operator == "REF=":
+                self._opened(value)
             if operator == "REF=" and isinstance(spec := self.world.resolved(taken.known), tree.ReferenceSpec):
                 taken = of_type(spec.target)
             self.gives(given, taken)
@@ -95,10 +99,49 @@ class Body:
             join(target.shape, given)
 
     def _written(self, target: tree.Expression) -> None:
-        if isinstance(target, tree.MemberOf):
+        if isinstance(target, tree.MemberOf) and not self._before(target.owner):
             found = self.world.resolved(self.of(target.owner).known)
             if isinstance(found, Unknown) and target.name.upper() in found.members:
                 found.members[target.name.upper()].written = True
+        self._opened(target)
+
+    def _opened(self, target: tree.Expression) -> None:
+        """It may be written, and what it is a part of with it."""
+        match target:
+            case tree.MemberOf(owner=owner, name=name):
+                member = None if self._before(owner) else self.world.member(self.of(owner), name)
+                if member is not None:
+                    member.open = True
+                self._opened(owner)
+            case tree.IndexOf(array=owner) | tree.PartialAccess(owner=owner):
+                self._opened(owner)
+            case _:
+                pass
+
+    def _before(self, owner: tree.Expression) -> bool:
+        """Whether it is the name of a library or a list, written before one of its own."""
+        if not isinstance(owner, tree.Name) or owner.name.upper() in self.local:
+            return False
+        key = owner.name.upper()
+        return key in self.world.prefixes or key in self.world.lists or self.world.is_list(owner.name)
+
+    def _label(self, label: tree.Expression) -> None:
+        """A label `E.Value` is a value of an enumeration, whatever that is called: a part of a variable is none."""
+        owner = self._plain(label.owner) if isinstance(label, tree.MemberOf) else None
+        if not isinstance(owner, tree.Name) or owner.name.upper() in self.local or self._before(owner):
+            return
+        key, world = owner.name.upper(), self.world
+        if key not in world.globals and key not in world.types and not world.has_function(key):
+            world.unknown.setdefault(key, Unknown(owner.name))
+
+    def _plain(self, owner: tree.Expression) -> tree.Expression:
+        """A name without that of its library, but that of a list."""
+        if isinstance(owner, tree.MemberOf) and isinstance(owner.owner, tree.Name):
+            key = owner.owner.name.upper()
+            is_list = owner.name.upper() in self.world.lists or self.world.is_list(owner.name)
+            if key in self.world.prefixes and key not in self.local and not is_list:
+                return tree.Name(owner.name, owner.span)
+        return owner
 
     def _condition(self, condition: tree.Expression) -> None:
         self.of(condition).root.literals.add("bool")
@@ -172,14 +215,18 @@ class Body:
         if key in world.lists or world.has_function(key) or key in world.prefixes:
             return Shape()
         if self.base is not None:
-            return self.base.member(name).shape
+            member = self.base.member(name)
+            member.open = True
+            return member.shape
+        if key in world.unknown:
+            return of_type(named(name, at))
         return world.unknown_globals.setdefault(key, Member(name, Shape())).shape
 
     def _member(self, each: tree.MemberOf) -> Shape:
-        world, owner = self.world, each.owner
+        world, owner = self.world, self._plain(each.owner)
         if isinstance(owner, tree.Name) and owner.name.upper() not in self.local:
             key = owner.name.upper()
-            listed = self._listed(each)
+            listed = self._listed(owner, each.name)
             if listed is not None:
                 return of_type(listed)
             if key in world.prefixes or (key in world.lists and key not in world.globals):
@@ -190,22 +237,21 @@ class Body:
             if isinstance(declared, tree.TypeDeclaration):
                 return of_type(named(owner.name, each))
             unknown = key not in world.globals and declared is None and not world.has_function(key)
-            if (
-                unknown
-                and key not in world.unknown_globals
-                and (key in world.unknown or ENUMERATION.fullmatch(owner.name))
-            ):
+            if unknown and (key in world.unknown or self._called_enumeration(owner.name)):
                 found = world.unknown.setdefault(key, Unknown(owner.name))
-                found.values.setdefault(each.name.upper(), each.name)
+                if not found.block and not found.methods:
+                    found.values.setdefault(each.name.upper(), each.name)
                 return of_type(named(owner.name, each))
         return world.part(self.of(owner), each.name)
 
-    def _listed(self, each: tree.MemberOf) -> tree.TypeSpec | None:
+    def _listed(self, owner: tree.Expression, name: str) -> tree.TypeSpec | None:
         """The type of a variable with the name of its list before it."""
-        owner = each.owner
         if not isinstance(owner, tree.Name) or owner.name.upper() in self.local:
             return None
-        return self.world.globals.get(f"{owner.name}.{each.name}".upper())
+        return self.world.globals.get(f"{owner.name}.{name}".upper())
+
+    def _called_enumeration(self, name: str) -> bool:
+        return name.upper() not in self.world.unknown_globals and ENUMERATION.fullmatch(name) is not None
 
     def index(self, array: Shape, indices: list[Shape]) -> Shape:
         for one in indices:
@@ -227,7 +273,7 @@ class Body:
     def _call(self, each: tree.Call, used: bool) -> Shape:
         callee, world = each.callee, self.world
         if isinstance(callee, tree.MemberOf):
-            listed = self._listed(callee)
+            listed = self._listed(callee.owner, callee.name)
             if listed is not None:
                 return self._instance(each, of_type(listed))
             inside = isinstance(callee.owner, tree.Name) and callee.owner.name.upper() in world.prefixes
@@ -292,6 +338,8 @@ class Body:
             member.written, member.output = not each.output, each.output
             if each.value is not None:
                 given = self.of(each.value)
+                if each.output:
+                    self._written(each.value)
                 self.gives(given, member.shape)
                 join(member.shape, given)
 
@@ -317,6 +365,7 @@ class Body:
             for section, variable in variables(declared)
             if section.keyword in ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT")
         }
+        references = any(section.keyword == "VAR_IN_OUT" for section in declared.sections)
         base = self.world.unknown_base(declared) if declared.kind == "function_block" else None
         for one in self.world.bases(declared):
             if isinstance(one, tree.PouDeclaration):
@@ -326,6 +375,10 @@ class Body:
             if argument.value is None:
                 continue
             given = self.of(argument.value)
+            if argument.output:
+                self._written(argument.value)
+            if references:
+                self._opened(argument.value)
             if argument.name is None:
                 spec = in_order[number] if number < len(in_order) else None
             else:

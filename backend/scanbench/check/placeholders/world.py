@@ -129,16 +129,27 @@ class World:
         """The type without a declaration that a block comes from."""
         return next((each for each in self.bases(pou) if isinstance(each, Unknown)), None)
 
-    def part(self, shape: Shape, name: str) -> Shape:
-        """`shape.name`."""
+    def member(self, shape: Shape, name: str) -> Member | None:
+        """`shape.name`, where nothing declares it."""
         spec = shape.known
         if spec is None:
-            return shape.root.members.setdefault(name.upper(), Member(name, Shape())).shape
+            return shape.root.members.setdefault(name.upper(), Member(name, Shape()))
         found = self.resolved(spec)
         if isinstance(found, tree.ReferenceSpec):
+            return self.member(of_type(found.target), name)
+        if isinstance(found, tree.PouDeclaration):
+            base = self.unknown_base(found)
+            return base.members.get(name.upper()) if base is not None else None
+        return found.member(name) if isinstance(found, Unknown) else None
+
+    def part(self, shape: Shape, name: str) -> Shape:
+        """`shape.name`."""
+        found = self.resolved(shape.known)
+        if isinstance(found, tree.ReferenceSpec):
             return self.part(of_type(found.target), name)
-        if isinstance(found, Unknown):
-            return found.member(name).shape
+        if shape.known is None or isinstance(found, Unknown):
+            member = self.member(shape, name)
+            return Shape() if member is None else member.shape
         if isinstance(found, tree.StructSpec):
             own = next((each.type for each in found.members if each.name.upper() == name.upper()), None)
             if own is None and found.extends is not None:
