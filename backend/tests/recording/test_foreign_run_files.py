@@ -5,7 +5,7 @@ import os
 import struct
 import zlib
 from contextlib import suppress
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -137,11 +137,17 @@ def test_what_cannot_be_unpacked_is_refused(kind: Kind, payload: bytes, tmp_path
     assert open_files(tmp_path) == []
 
 
-@pytest.mark.parametrize("told", [about(of_a_newer_version=[1]), about()[:-1].rpartition(b",")[0] + b"}"])
-def test_what_was_recorded_may_say_more_or_less(told: bytes, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("told", "read"),
+    [
+        (about(of_a_newer_version=[1]), ABOUT),
+        (about()[:-1].rpartition(b",")[0] + b"}", replace(ABOUT, marks=False)),  # as before there were marks at the end
+    ],
+)
+def test_what_was_recorded_may_say_more_or_less(told: bytes, read: About, tmp_path: Path) -> None:
     path = write(tmp_path / "run", [(Kind.ABOUT, 0, told), FIRST[1], STATE])
     with Recording.open(path, ENTRIES, read_only=True) as recording:
-        assert recording.about == ABOUT
+        assert recording.about == read
 
 
 @pytest.mark.parametrize(("kind", "packing", "reserved"), [(7, 0, 0), (0, 0, 0), (3, 2, 0), (3, 0, 256), (4, 0, 1)])
