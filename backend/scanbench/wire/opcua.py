@@ -1,6 +1,6 @@
 """What the server and the process of an OPC UA server say to each other.
 
-Server to process: `OpcUaStart` first. Process to server: `OpcUaReady` or `OpcUaFailed` first. The process asks with a `ref`
+Server to process: `OpcUaStart` first, then an `OpcUaProgram`. Process to server: `OpcUaReady` or `OpcUaFailed` first. The process asks with a `ref`
 (`ReadVariables`, answered with `VariablesAre`; `OpcUaSubmit`, answered with `OpcUaDone`).
 """
 

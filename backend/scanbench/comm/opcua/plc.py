@@ -65,7 +65,7 @@ class Plc:
             self._news.put_nowait(message)
 
     async def open(self) -> None:
-        """Makes the nodes that are always there, and listens. `OSError`."""
+        """Makes the nodes that are always there, and those of the first program, and listens. `OSError`."""
         iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}, None, (_PLC, _ERRORS)))
         _use(iserver, self._space)
         self._values.publishing = Publishing(iserver.subscription_service)
@@ -79,24 +79,27 @@ class Plc:
         )
         self._errors = iserver.desk.alarms = Errors(server, self._values, _ERRORS, self._shown_errors())
         self._changed = await server.get_event_generator(ua.ObjectIds.GeneralModelChangeEventType)
+        await self._take(await self._news.get())  # the program: whoever comes at once finds its nodes
         await server.start()
 
     async def live(self) -> None:
         """Takes news, and reads what clients have subscribed to, for ever."""
-        await asyncio.gather(self._values.go_on(), self._take())
+        await asyncio.gather(self._values.go_on(), self._take_all())
 
-    async def _take(self) -> None:
+    async def _take_all(self) -> None:
         while True:
-            message = await self._news.get()
-            try:
-                match message:
-                    case OpcUaProgram(sources):
-                        await self._renew(sources)
-                    case OpcUaErrors():
-                        assert self._errors is not None
-                        await self._errors.take(message)
-            except Exception:  # the next one may be better
-                log.exception("an OPC UA server could not take %s", type(message).__name__)
+            await self._take(await self._news.get())
+
+    async def _take(self, message: object) -> None:
+        try:
+            match message:
+                case OpcUaProgram(sources):
+                    await self._renew(sources)
+                case OpcUaErrors():
+                    assert self._errors is not None
+                    await self._errors.take(message)
+        except Exception:  # the next one may be better
+            log.exception("an OPC UA server could not take %s", type(message).__name__)
 
     # ---- nodes ----------------------------------------------------------------------------------------------------
 

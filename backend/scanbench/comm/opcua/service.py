@@ -135,6 +135,7 @@ class OpcUaServer:
         self._writer, self._told = writer, None
         try:
             self._say(self._start(port))
+            self._changed()
             async for message in messages(reader):
                 if isinstance(message, OpcUaFailed):
                     return message.message
@@ -185,7 +186,6 @@ class OpcUaServer:
     def _hear(self, message: object, ready: asyncio.Future[int]) -> None:
         match message:
             case OpcUaReady(port):
-                self._changed()
                 self.break_line(self._desk.fault)
                 self.trouble = ""
                 if not ready.done():
