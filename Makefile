@@ -136,7 +136,7 @@ nightly: setup-test frontend/dist/.stamp
 	@.ci/steps nightly-unit nightly-e2e
 
 nightly-unit:
-	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -m "nightly or slow or hypothesis"
+	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -rs -m "nightly or slow or hypothesis"
 
 nightly-e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent nightly

@@ -4,6 +4,7 @@ import gc
 import os
 import re
 import signal
+import time
 from collections.abc import Callable, Iterator
 from zlib import crc32
 
@@ -71,9 +72,15 @@ the optimiser. By night all of those marked `nightly` or `slow`, the cases among
 _optimise = True
 
 
+UNTIL = float(os.environ.get("SCANBENCH_UNTIL", "inf"))
+"""Seconds since 1970, after which no test begins: CI has a limit, and would lose all that was found."""
+
+
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Says what is compiled in this test."""
+    """Says what is compiled in this test, or that there is no time for it."""
     global _optimise
+    if time.time() > UNTIL:
+        pytest.skip("no time was left for it (SCANBENCH_UNTIL)")
     _optimise = NIGHTLY or item.nodeid.startswith(OPTIMISED)
 
 
