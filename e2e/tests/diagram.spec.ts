@@ -126,6 +126,13 @@ test('a network is drawn with the mouse @nightly', async ({ openAs, server }) =>
       await expect(sheet.getByRole('combobox')).toHaveCount(0);
       await sheet.getByRole('option', { name: /^1: box OR/ }).click();
     }
+    // Its line of the text is dragged before the other one.
+    const box = (name: RegExp) => sheet.getByRole('option', { name });
+    await box(/^2: box AND/).dragTo(box(/^1: box OR/));
+    await expect(box(/^1: box AND/)).toBeVisible();
+    await expect(box(/^2: box OR/)).toBeVisible();
+    await sheet.press('Control+Z');
+    await expect(box(/^1: box OR/)).toBeVisible();
     await pin('Input 1 of OR').dblclick();
     await fill('go');
     await pin('Input 2 of OR').dblclick();

@@ -81,4 +81,19 @@ test('the menu of a drawing does what its keys do, by mouse and by keyboard', as
     await entry('Insert a rung below').click();
     await expect(sheet.getByRole('group')).toHaveCount(2);
   });
+
+  await test.step('of several rungs it says how many it deletes', async () => {
+    await sheet.getByText('The motor runs').click();
+    await sheet
+      .getByRole('group')
+      .nth(1)
+      .getByText('2')
+      .click({ modifiers: ['Control'] });
+    await sheet.getByText('The motor runs').click({ button: 'right' });
+    await expect(entry('Delete the rung')).toHaveCount(0);
+    await entry('Delete 2 rungs').click();
+    await expect(element('Coil on')).toHaveCount(0);
+    await keyboard.press('Control+Z');
+    await expect(element('Coil on')).toBeVisible();
+  });
 });

@@ -52,6 +52,18 @@ describe("the networks after an edit", () => {
   });
 });
 
+describe("a rung whose title has no end yet", () => {
+  it("stays in the drawing as it was, with its text", () => {
+    const text = 'PROGRAM Main\nRUNG "Half"\n    [go] (on)\nEND_RUNG\nRUNG\n    [on] (q)\nEND_RUNG\nEND_PROGRAM\n';
+    const sheet = new Sheet();
+    const [before] = sheet.of(text, 640);
+    const [half, next, ...others] = sheet.of(text.replace('Half"', "Hal"), 640);
+    expect(half).toMatchObject({ readable: false, drawing: before?.drawing, found: { head: { title: "Hal" } } });
+    expect(next?.readable).toBe(true);
+    expect(others).toEqual([]);
+  });
+});
+
 describe("the stop at a place of the text", () => {
   const text = "NETWORK\n    #w = AND(a, gone);\n    b := NOT #w;\nEND_NETWORK\n";
   const [part] = new Sheet().of(text, 640);

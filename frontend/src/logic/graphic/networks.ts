@@ -17,12 +17,15 @@ export interface Found {
   body: { at: number; end: number };
   /** The whole text of the network. */
   text: string;
-  /** Whether its end was found. */
+  /** Whether its end was found, and that of its title. */
   closed: boolean;
 }
 
 const BEGIN = /^([ \t]*)(?:(\{off\})[ \t]*\n?[ \t]*)?(RUNG|NETWORK)\b([^\n]*)/i;
 const HEAD = /^[ \t]*(?:([\p{L}_][\p{L}\p{N}_]*)[ \t]*:)?[ \t]*(?:"((?:[^"$\n]|\$.)*)")?[ \t]*(?:\/\/[^\n]*)?\r?$/u;
+
+/** While its title is typed it has no end yet. */
+const OPEN_TITLE = /^[ \t]*(?:([\p{L}_][\p{L}\p{N}_]*)[ \t]*:)?[ \t]*"((?:[^"$\n]|\$.)*)\$?\r?$/u;
 
 /** All networks of a file, in the order of the text. */
 export const networksIn = (text: string): Found[] => scan(text, { at: 0, line: 1 }, () => null);
@@ -113,7 +116,8 @@ function networkAt(text: string, at: number, line: number): Found | null {
   const begin = BEGIN.exec(text.slice(at, at + 2000));
   if (!begin) return null;
   const [whole, indent = "", off, word = "", rest = ""] = begin;
-  const head = HEAD.exec(rest);
+  const said = HEAD.exec(rest);
+  const head = said ?? OPEN_TITLE.exec(rest);
   if (!head) return null;
   const kind = word.toUpperCase() === "RUNG" ? "rung" : "network";
   const from = at + whole.length - rest.length - word.length;
@@ -129,7 +133,7 @@ function networkAt(text: string, at: number, line: number): Found | null {
     indent,
     body: { at: bodyAt - from, end: bodyEnd - from },
     text: text.slice(from, to),
-    closed: to > bodyEnd,
+    closed: to > bodyEnd && said !== null,
   };
 }
 

@@ -27,6 +27,12 @@ test.each([
   [["FUNCTION_BLOCK A", "  METHOD b", "  VAR a : INT; END_VAR"], "  "],
   [["  a := 1;", ""], "  "],
   [["  a : ARRAY[1..4] OF"], "  "],
+  [["RUNG"], "  "],
+  [['  RUNG start: "It holds" // so'], "    "],
+  [['{off} NETWORK "Off"'], "  "],
+  [["  rung := 1;"], "  "],
+  [["RUNG [a] (b) END_RUNG"], ""],
+  [["  [go]", "    (on)", "  END_RUNG"], "  "],
   [[], ""],
 ])("after %j", (lines, expected) => {
   expect(after(...lines)).toBe(expected);
@@ -38,6 +44,8 @@ test.each([
   [["  IF a THEN", "    IF b THEN c := 1; END_IF;", "    elsif"], "  "],
   [["  CASE n OF", "    1: IF a THEN", "      b := 1;", "      ELSE"], "    "],
   [["  CASE n OF", "    1:", "      ELSE"], "  "],
+  [["  RUNG", "    [a] (b)", "    END_RUNG"], "  "],
+  [["  {off} NETWORK", "    END_NETWORK"], "  "],
   [["  REPEAT", "    a := 1;", "    UNTIL"], "  "],
   [["PROGRAM Main", "VAR_INPUT", "  a : INT;", "  END_VAR"], ""],
   [["FUNCTION_BLOCK A", "  FUNCTION : INT", "  END_FUNCTION_BLOCK"], ""],

@@ -8,7 +8,7 @@ const HEAD = /^\s*(PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD)\b(?!.*\bEND_)/i;
 const SECTION = /^\s*VAR(_\w+)?(?!\w)/i;
 /** What the layout puts one level deeper than the line itself. */
 const OPENS =
-  /(\b(THEN|DO|ELSE|REPEAT|STRUCT|UNION|TYPE)|^\s*CASE\b.*\bOF|^\s*VAR(_\w+)?\b(?!.*\bEND_VAR\b).*|:)\s*$|^\s*(NAMESPACE|CONFIGURATION|RESOURCE|INTERFACE)\b(?!.*\bEND_)/i;
+  /(\b(THEN|DO|ELSE|REPEAT|STRUCT|UNION|TYPE)|^\s*CASE\b.*\bOF|^\s*VAR(_\w+)?\b(?!.*\bEND_VAR\b).*|:)\s*$|^\s*(NAMESPACE|CONFIGURATION|RESOURCE|INTERFACE)\b(?!.*\bEND_)|^\s*(\{off\}\s*)?(RUNG|NETWORK)\b(?!\s*(:=|\.|\[|\()|.*\bEND_)/i;
 const ENDS = /^\s*(?:END_(\w+)|(ELSE|ELSIF)|(UNTIL))(?!\w)/i;
 
 export const blanksOf = (text: string) => /^[ \t]*/.exec(text)?.[0] ?? "";
@@ -51,7 +51,10 @@ export function indentOfOpener(lineOf: LineOf, line: number): string | null {
   const words = end ? [end] : branch ? (/^ELSE$/i.test(branch) ? ["IF", "CASE"] : ["IF"]) : until ? ["REPEAT"] : [];
   if (words.length === 0) return null;
   const closes = new RegExp(`\\bEND_(${words.join("|")})\\b`, "i");
-  const opens = new RegExp(`(^|:)\\s*(${words.join("|")}${end?.toUpperCase() === "VAR" ? "(_\\w+)?" : ""})\\b`, "i");
+  const opens = new RegExp(
+    `(^|:|\\})\\s*(${words.join("|")}${end?.toUpperCase() === "VAR" ? "(_\\w+)?" : ""})\\b`,
+    "i",
+  );
   let inner = 0;
   for (let above = line - 1; above > 0; above -= 1) {
     const code = codeOf(lineOf(above));

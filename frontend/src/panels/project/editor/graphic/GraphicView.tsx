@@ -221,6 +221,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const take = (what: "copy" | "cut", at: Cursor) => (chosen ? choosing[what]() : editing[what](at));
   const context = useDrawingMenu({
     ...{ path, drawn, readOnly, sheet, press, take, isChosen: choosing.holds, can: editing.can },
+    severalAt: choosing.severalAt,
     go: (to) => {
       choosing.clear();
       setCursor(to);

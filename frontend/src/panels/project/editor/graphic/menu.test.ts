@@ -45,6 +45,18 @@ describe("the menu of a place", () => {
     for (const key of ["!", "Ctrl+Alt+W", "F9"]) expect(hints(items)).not.toContain(key);
   });
 
+  it("of several that are chosen says how many, and has what is done with all of them", () => {
+    const rungs = menuAt(rung, [], { several: { count: 3, of: "rungs" } });
+    expect(labels(rungs)).toContain("Delete 3 rungs");
+    expect(labels(rungs)).not.toContain("Delete the rung");
+    expect(hints(rungs)).toEqual(["Ctrl+X", "Ctrl+C", "Del", "Ctrl+/"]);
+    const elements = menuAt(rung, [0], { several: { count: 2, of: "elements" } });
+    expect(hints(elements)).toEqual(["Ctrl+X", "Ctrl+C", "Del"]);
+    expect(labels(menuAt(rung, [], { readOnly: true, several: { count: 3, of: "rungs" } }))).toEqual([
+      t("graphic.menu.copy"),
+    ]);
+  });
+
   it("changes nothing in a text that is read only", () => {
     const items = menuAt(rung, [0], { readOnly: true });
     expect(hints(items)).toEqual(["Ctrl+C", "Ctrl+Alt+W", "", "", "", "Shift+F12", "Ctrl+Alt+R", "F9"]);

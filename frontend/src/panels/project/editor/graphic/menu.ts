@@ -20,12 +20,6 @@ const MODE: readonly Entry[] = [
   { key: "!", word: "graphic.menu.negate" },
   { key: "e", word: "graphic.menu.edge" },
 ];
-const HEAD: readonly Entry[] = [
-  { key: "t", word: "graphic.menu.title" },
-  { key: ";", word: "graphic.menu.comment" },
-  { key: "Ctrl+/", word: "graphic.menu.off" },
-];
-
 const INSERT: Record<DrawnPart["kind"], readonly Entry[]> = {
   rung: [
     { key: "c", word: "graphic.menu.contact" },
@@ -52,6 +46,13 @@ const INSERT: Record<DrawnPart["kind"], readonly Entry[]> = {
     { key: "j", word: "graphic.menu.jump" },
   ],
 };
+
+const OFF: Entry = { key: "Ctrl+/", word: "graphic.menu.off" };
+const HEAD: readonly Entry[] = [
+  { key: "t", word: "graphic.menu.title" },
+  { key: ";", word: "graphic.menu.comment" },
+  OFF,
+];
 
 const COPY: Entry = { key: "Ctrl+C", word: "graphic.menu.copy" };
 const CLIPBOARD: readonly Entry[] = [
@@ -91,8 +92,15 @@ const USES: readonly Entry[] = [
 const RENAME: Entry = { key: "Ctrl+F2", word: "graphic.menu.rename" };
 const BREAKPOINT: Entry = { key: "F9", word: "graphic.menu.breakpoint", icon: "bp" };
 
+export interface Several {
+  count: number;
+  of: "elements" | "rungs" | "networks";
+}
+
 interface Can {
   readOnly: boolean;
+  /** What is chosen together, where the menu is of that: how many, and of what. */
+  several?: Several | null;
   forcing: Forcing;
   /** Whether the key of that name means something at the place. */
   can: (key: string) => boolean;
@@ -101,23 +109,38 @@ interface Can {
 }
 
 /** What can be done at a place of a part; without a place with all of it. */
-export function menuOf(part: DrawnPart | undefined, place: Place, { readOnly, forcing, can, press }: Can): MenuItem[] {
+export function menuOf(part: DrawnPart | undefined, place: Place, asked: Can): MenuItem[] {
+  const { readOnly, several, forcing, can, press } = asked;
   if (!part) return [];
+  if (several) return itemsOf(readOnly ? [[COPY]] : editsOfSeveral(several), press, several.count);
   const groups = readOnly ? [[COPY]] : editsOf(part, place, can);
   if (operandAt(part, place)) {
     const forces = [...(forcing.bool ? TO : []), ...(forcing.forced ? [RELEASE] : [])];
     groups.push([WATCH, ...forces, ...USES, ...(readOnly ? [] : [RENAME])]);
   }
   if (place.length > 0) groups.push([BREAKPOINT]);
+  return itemsOf(groups, press);
+}
+
+function itemsOf(groups: readonly (readonly Entry[])[], press: Can["press"], count = 1): MenuItem[] {
   return groups.flatMap((entries, group) =>
     entries.map(({ key, word, icon, shown }, index) => ({
-      label: t(word),
+      label: t(word, { count }),
       ...(icon ? { icon } : {}),
       hint: shown ?? (key.length === 1 ? key.toUpperCase() : key),
       separated: index === 0 && groups.slice(0, group).some((before) => before.length > 0),
       onSelect: () => press(key),
     })),
   );
+}
+
+/** What the keys do with all that is chosen: see `useChosen`. */
+function editsOfSeveral({ of }: Several): Entry[][] {
+  const remove: Entry = { key: "Delete", shown: "Del", word: `graphic.menu.delete.${of}`, icon: "trash" };
+  return [
+    [...CLIPBOARD.filter(({ key }) => key !== "Delete" && key !== "Ctrl+V"), remove],
+    of === "elements" ? [] : [OFF],
+  ];
 }
 
 function editsOf(part: DrawnPart, place: Place, can: Can["can"]): Entry[][] {

@@ -7,6 +7,7 @@ import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { between, branched, textOf, without } from "../../../../logic/graphic/select";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { moved, sameElement } from "./cursor";
+import type { Several } from "./menu";
 import type { Cursor } from "./useEditing";
 import { putParts, removeParts, switchParts } from "./write";
 
@@ -77,6 +78,17 @@ export function useChosen({ path, drawn, readOnly, go, begin, around }: Choosing
   const holds = ({ rung, place }: Cursor) =>
     chosen?.parts.includes(rung) === true &&
     (chosen.places.length === 0 || chosen.places.some((each) => sameElement(each, place)));
+
+  /** What is chosen together with a place, for its menu; null where it is alone. */
+  function severalAt(at: Cursor): Several | null {
+    if (!chosen || !holds(at)) return null;
+    const { places } = chosen;
+    const parts = wholes();
+    const count = places.length > 0 ? places.length : parts.length;
+    if (count < 2) return null;
+    if (places.length > 0) return { count, of: "elements" };
+    return { count, of: parts.every(({ kind }) => kind === "rung") ? "rungs" : "networks" };
+  }
 
   /** A click with Ctrl takes one more, or that one out. */
   function toggle(cursor: Cursor, to: Cursor): void {
@@ -151,5 +163,5 @@ export function useChosen({ path, drawn, readOnly, go, begin, around }: Choosing
     return text;
   }
 
-  return { chosen, holds, clear, extend, byKey, toggle, press, copy, cut };
+  return { chosen, holds, severalAt, clear, extend, byKey, toggle, press, copy, cut };
 }

@@ -6,7 +6,7 @@ import { toggleBreakpointHere } from "../../../../store/debug/debugKeys";
 import { t } from "../../../../text";
 import { useMenu } from "../../../../ui/Menu";
 import { cursorAt } from "./find";
-import { menuOf } from "./menu";
+import { menuOf, type Several } from "./menu";
 import { type Forcing, forcingAt, NO_FORCING } from "./operand";
 import type { Cursor } from "./useEditing";
 
@@ -16,6 +16,8 @@ interface Asked {
   readOnly: boolean;
   sheet: { current: HTMLElement | null };
   isChosen: (at: Cursor) => boolean;
+  /** What is chosen together with a place; null where it is alone. */
+  severalAt: (at: Cursor) => Several | null;
   go: (to: Cursor) => void;
   /** The id of the element of the cursor. */
   idOf: (cursor: Cursor) => string;
@@ -30,13 +32,28 @@ interface Asked {
   onRefused: () => void;
 }
 
-export function useDrawingMenu({ path, drawn, readOnly, sheet, isChosen, go, idOf, can, press, ...does }: Asked) {
+export function useDrawingMenu({
+  path,
+  drawn,
+  readOnly,
+  sheet,
+  isChosen,
+  severalAt,
+  go,
+  idOf,
+  can,
+  press,
+  ...does
+}: Asked) {
   const { open, menu } = useMenu(t("graphic.menu"));
 
   function show(at: Cursor, point: { x: number; y: number }): void {
     const part = drawn[at.rung];
     const opened = (forcing: Forcing) => {
-      const items = menuOf(part, at.place, { readOnly, forcing, can: (key) => can(key, at), press: pressAt(at) });
+      const items = menuOf(part, at.place, {
+        ...{ readOnly, several: severalAt(at), forcing, press: pressAt(at) },
+        can: (key) => can(key, at),
+      });
       if (items.length > 0) open(items, point);
     };
     forcingAt(path, part, at.place).then(opened, () => opened(NO_FORCING));
