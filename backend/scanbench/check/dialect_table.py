@@ -42,7 +42,7 @@ DIALECTS: dict[DialectName, Dialect] = {
             | {Allowance.CHAINED_ASSIGNMENT, Allowance.LABELS, Allowance.BLOCK_VARIABLES}
             | {Allowance.BIT_CONVERSION, Allowance.NARROWING, Allowance.REAL_CONVERSION}
             | {Allowance.BLOCK_TEMPORARIES, Allowance.INSTANCE_COPIES},
-            frozenset({"SYSTEM.MATH"}),
+            frozenset({"SYSTEM.MATH", "IEC"}),
         ),
         Dialect(
             "rockwell",

@@ -80,6 +80,10 @@ def _order(span: Span) -> tuple[str, int, int]:
 
 def _said(stub: tree.PouDeclaration, places: int) -> str:
     often = "" if places == 1 else f" It is used in {places} places."
+    if stub.kind == "function" and stub.result is None:
+        return (
+            f"`{stub.name}` is a stub, without a real body: it does nothing. Write its body in {stub.span.file}.{often}"
+        )
     how = f"`Stub_{stub.name}` is its result" if stub.kind == "function" else "its outputs keep what is written to them"
     return (
         f"`{stub.name}` is a stub, without a real body: {how}. Set that in the watch table, by a force or by a stimulus, "

@@ -68,6 +68,11 @@ def operand(c: Cursor) -> tree.Expression:
         span = Stretch(c.source, start, start + len(text))
         if texts[at + 1] == "<" and (chosen := chosen_type(c)):
             return postfix(c, tree.Name(f"{text}<{chosen}>", span))
+        if (
+            texts[at + 1] == "#" and c.kinds[at + 2] is NAME and c.wires is None
+        ):  # `State# RUN`, as SIMATIC AX lets one write it
+            c.at = at + 3
+            return tree.TypedName(text, texts[at + 2], c.span_from(at))
         name = tree.Name(text, span)
         return postfix(c, name) if texts[at + 1] in POSTFIX else name
     if kind in LITERALS:

@@ -85,11 +85,13 @@ class Names:
 
     def plain(self, name: str) -> str:
         """The name without that of a library before it."""
-        library, point, rest = name.partition(".")
-        if point and library.upper() in self.prefixes:
+        library, _, rest = name.rpartition(".")
+        if (
+            "." in library and library.upper() in self.prefixes
+        ):  # as System.Math of SIMATIC AX, which has a library System as well
             return rest
-        library, point, rest = name.rpartition(".")  # as System.Math of SIMATIC AX
-        return rest if "." in library and library.upper() in self.prefixes else name
+        library, point, rest = name.partition(".")
+        return rest if point and library.upper() in self.prefixes else name
 
     def _may_use(self, name: str, key: str, span: Span) -> None:
         """Refuses what is INTERNAL of a namespace that this place is not in, itself or what is around it."""

@@ -16,12 +16,16 @@ def inputs_of(pou: tree.PouDeclaration) -> list[object]:
 
 
 def _types_of(pou: tree.PouDeclaration, keywords: tuple[str, ...]) -> list[object]:
-    return [
-        each.type.name.upper() if isinstance(each.type, tree.NamedType) else type(each.type)
-        for section in pou.sections
-        if section.keyword in keywords
-        for each in section.variables
-    ]
+    return [_told(each.type) for section in pou.sections if section.keyword in keywords for each in section.variables]
+
+
+def _told(spec: tree.TypeSpec) -> object:
+    """A type by which an input differs from another; strings of any length, and arrays of any, are one."""
+    if isinstance(spec, tree.NamedType):
+        return spec.name.rpartition(".")[2].upper()
+    if isinstance(spec, tree.ReferenceSpec) and isinstance(inner := _told(spec.target), str):
+        return f"REF_TO {inner}"
+    return type(spec)
 
 
 def signature_of(pou: tree.PouDeclaration) -> tuple[list[object], list[object]]:

@@ -67,7 +67,7 @@ NEEDED_BY = {
         {"CLOCK_0", "CLOCK_1", "CLOCK_2", "NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}
     ),
     "System": frozenset(
-        {"SYSTEM.TIMER", "SYSTEM.EDGEDETECTION", "SYSTEM.STRINGS", "SYSTEM.DATETIME", "SIEMENS.SIMATIC"}
+        "SYSTEM.TIMER SYSTEM.EDGEDETECTION SYSTEM.STRINGS SYSTEM.DATETIME SYSTEM.SERIALIZATION SIEMENS.SIMATIC".split()
     ),
 }
 """Operators, instructions and namespaces that use a library without a name that it declares."""
