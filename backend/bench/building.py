@@ -77,7 +77,7 @@ def _second_host(program: str, cache: Path) -> Figures:
     figures, builder, plc = _host(program, cache)
     builder.prepare(_sources(program, _text(program)))
     changes = _edits(_text(program), STATEMENT, BODIES)
-    figures["pou_changed"] = _median(lambda edited: _change(builder, plc, _sources(program, edited)), changes)
+    figures["pou_changed"] = _median(lambda edited: change(builder, plc, _sources(program, edited)), changes)
     return figures | _memory()
 
 
@@ -174,8 +174,8 @@ def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
     return _ms(start), peak
 
 
-def _change(builder: Builder, plc: Resource, sources: Sources) -> float:
-    """From the text of a build to the first scan of the new program, variables carried over."""
+def change(builder: Builder, plc: Resource, sources: Sources) -> float:
+    """ms from the text of a build to the first scan of the new program, variables carried over."""
     start = perf_counter_ns()
     version = plc.version + 1
     plc.programs = LoadedPrograms(plc.loaded, HostPrograms(builder, {}).make(replace(sources, version=version)))

@@ -1,7 +1,7 @@
 """`python -m bench graphic`: 500 rungs of 12 elements, held against the same logic as expressions of ST.
 
-Each figure is the rungs' divided by the expressions': a scan of run code, a scan of the interpreter, from text to a program that was checked, and to
-machine code. And what looking at a drawing costs: ms of one scan whose 6,000 elements are noted, and of one with some 50 lines in sight. Run code has nothing of
+Each figure is the rungs' divided by the expressions': a scan of run code, a scan of the interpreter, from text to a program that was checked, from that to
+machine code, both together, and from an edit of one rung to the first scan of the new program, as the host of a PLC makes it. And what looking at a drawing costs: ms of one scan whose 6,000 elements are noted, and of one with some 50 lines in sight. Run code has nothing of
 that in it: it is a scan that is run again by the debug flavour.
 """
 
@@ -14,6 +14,7 @@ from functools import partial
 from statistics import median
 from time import thread_time_ns
 
+from bench.building import change
 from bench.run import MODEL
 from scanbench.check.build import check_sources
 from scanbench.debug.flow import FlowHook
@@ -22,14 +23,18 @@ from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.host.build import Builder
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
+from scanbench.wire.host import Sources
 
 RUNGS, CONTACTS, COILS = 500, 11, 500
 NAMES = [f"x{number}" for number in range(300)]
 SCANS, ROUNDS = 2_000, 15
+EDITS = 7
+INTERVAL_NS = 1_000_000
 
 
 def programs() -> tuple[str, str]:
@@ -83,6 +88,27 @@ def noted(program: Program, last: int) -> float:
     return median(took(look) for _ in range(ROUNDS))
 
 
+class Edited:
+    """A PLC whose program is edited: one rung, or the line that says the same, after the other."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._builder = Builder(None)
+        built = self._builder.build(self._sources(text))
+        self._plc = Resource(Loaded.make(built.program, built.engine))
+        self._plc.run(1)
+
+    def running(self, number: int) -> float:
+        """ms from the text, in which another rung writes another variable, to its first scan."""
+        coil = number * RUNGS // EDITS
+        edited = self._text.replace(f"(q{coil})", f"(q{coil + 1})").replace(f"\nq{coil} :=", f"\nq{coil + 1} :=")
+        assert edited != self._text
+        return change(self._builder, self._plc, self._sources(edited))
+
+    def _sources(self, text: str) -> Sources:
+        return Sources(MODEL, {"main.st": text}, INTERVAL_NS, 1)
+
+
 def measured(scans: int) -> dict[str, float]:
     """Ratios, rungs to expressions, each the median of rounds that take turns; and µs a scan of the rungs."""
     texts = programs()
@@ -92,13 +118,19 @@ def measured(scans: int) -> dict[str, float]:
         ReferenceEngine(program, bytearray(program.initial_image)) for program in both
     ]  # fmt: skip
     times: dict[str, list[list[float]]] = {"run code": [], "interpreter": [], "check": [], "build": []}
+    plcs = [Edited(text) for text in texts]
+    times["edit"] = [[plc.running(number) for plc in plcs] for number in range(EDITS)]
     for _ in range(ROUNDS):
         times["run code"].append([took(partial(each.run, scans)) for each in native])
         times["interpreter"].append([took(partial(each.run, 1)) for each in slow])
     for _ in range(3):
         times["check"].append([took(partial(checked, text)) for text in texts])
         times["build"].append([took(partial(made, program)) for program in both])
+    times["together"] = [
+        [one + two for one, two in zip(*each, strict=True)] for each in zip(times["check"], times["build"], strict=True)
+    ]
     found = {name: median(rungs / lines for rungs, lines in pairs) for name, pairs in times.items()}
+    found["edit, ms"] = median(pair[0] for pair in times["edit"])
     found["noted, ms"], found["in sight, ms"] = (noted(both[0], last) for last in (1 << 30, 50))
     found["us a scan"] = median(pair[0] for pair in times["run code"]) * 1000 / scans
     return found

@@ -1,5 +1,7 @@
 """DATA_BLOCK of SCL: a global variable of a structure, a block or a type, with its start values."""
 
+from abc import abstractmethod
+
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.scl_words import Words, name_of
 
@@ -11,9 +13,9 @@ _OF_DATA = frozenset(("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"))
 class DataBlocks(Words):
     """Writes data blocks."""
 
+    @abstractmethod
     def _copy(self) -> None:
         """Writes one token as it is in the standard."""
-        raise NotImplementedError
 
     def _data_block(self, start: int) -> None:
         """A global variable: of a structure that is written there, or of a block or type; with its start values."""

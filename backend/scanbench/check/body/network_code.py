@@ -8,7 +8,7 @@ from scanbench.check.body.enabling import Enabling, enabled
 from scanbench.check.body.il_operands import hidden
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
-from scanbench.program.program import Assign, Blocks, Expr, If, Jump, Load, Return, Stmt
+from scanbench.program.program import Assign, Blocks, Expr, If, Jump, Load, Place, Return, Stmt
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, Elementary, Type, base_of
 from scanbench.syntax import networks, tree
@@ -30,6 +30,8 @@ class NetworkCode:
         self._count = 0
         """Temporaries of the network."""
         self._leaving: list[tuple[networks.Leave, tree.Name | None]] = []
+        self._temporaries: dict[str, Place] = {}
+        """Where they are: each network has its first, second and so on in the same place, and each is written once and read often."""
         self._find_labels()
 
     def _find_labels(self) -> None:
@@ -89,7 +91,10 @@ class NetworkCode:
     def temporary(self, kind: str, type: Type, span: Span) -> tree.Name:
         """A temporary of its own."""
         self._count += 1
-        return tree.Name(hidden(self.body, f"${kind}{self._count}", type, span).name, span)
+        name = hidden(self.body, f"${kind}{self._count}", type, span).name
+        if name not in self._temporaries:
+            self._temporaries[name] = self.body.place(tree.Name(name, span))[0]
+        return tree.Name(name, span)
 
     def wire(self, name: str, type: Type, span: Span) -> tree.Name:
         """A wire or link, `#low`, of this network alone: a temporary with its name."""
@@ -110,10 +115,13 @@ class NetworkCode:
         return name
 
     def store(self, name: tree.Name, value: Expr, span: Span) -> None:
-        self.emit(Assign(self.body.place(name)[0], value, span))
+        self.emit(Assign(self._place(name), value, span))
 
     def load(self, name: tree.Name) -> Expr:
-        return Load(self.body.place(name)[0])
+        return Load(self._place(name))
+
+    def _place(self, name: tree.Name) -> Place:
+        return self._temporaries.get(name.name) or self.body.place(name)[0]
 
     def memory(self, each: networks.Contact | networks.Coil) -> tree.Name:
         """The variable that keeps what an edge saw last."""

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping
 from scanbench.check.placeholders.shapes import Shape, Unknown, join, of_type
 from scanbench.check.placeholders.uses import Body
 from scanbench.check.placeholders.world import World
+from scanbench.problems import Span
 from scanbench.syntax import tree
 
 
@@ -27,7 +28,8 @@ def look(world: World, files: Iterable[tree.File]) -> None:
                 join(interface.members[key].shape, unknown.members[key].shape)
 
 
-_NOBODY = tree.PouDeclaration("program", "", None, (), (), tree.NamedType("", None).span)  # type: ignore[arg-type]
+_NOBODY = tree.PouDeclaration("program", "", None, (), (), Span("", 1, 1, 1, 1))
+"""Around what is declared outside of a POU."""
 
 
 def _pou(world: World, pou: tree.PouDeclaration) -> None:

@@ -72,8 +72,8 @@ class Writer:
                 return None if size is None else f"{'W' * wide}STRING[{size}]"
             case tree.ReferenceSpec(target=target, pointer=pointer, automatic=automatic):
                 inner = self.spelled(target)
-                word = "POINTER TO" if pointer else "REFERENCE TO" if automatic else "REF_TO"
-                return None if inner is None else f"{word} {inner}"
+                word = "POINTER TO " if pointer else REFERENCE if automatic else "REF_TO "
+                return None if inner is None else word + inner
             case tree.ArraySpec(ranges=ranges, element=element):
                 inner = self.spelled(element)
                 bounds = [(_number(low), _number(high)) for low, high in ranges]
@@ -185,7 +185,7 @@ class Writer:
         """One of an interface: with parts that are written it is a reference, else both are there."""
         type = self.type(member.shape, f"{owner.name}_{member.name}")
         by_reference = self._has_parts(member.shape)
-        yield f"PROPERTY {'PUBLIC ' if body else ''}{member.name} : {'REFERENCE TO ' if by_reference else ''}{type}"
+        yield f"PROPERTY {'PUBLIC ' if body else ''}{member.name} : {REFERENCE * by_reference}{type}"
         bind = "REF=" if by_reference else ":="
         yield f"GET\n{member.name} {bind} Stub_{member.name};\nEND_GET" if body else "GET\nEND_GET"
         if not by_reference:
@@ -207,7 +207,7 @@ class Writer:
         if call and len(kinds - {"other"}) > 1:
             return "ANY"
         type = self.type(each.shape, f"{owner}_{each.name}")
-        return type if self._copied(each) else f"REFERENCE TO {type}"
+        return type if self._copied(each) else REFERENCE + type
 
     def _copied(self, each: Member) -> bool:
         found = self.world.resolved(each.shape.known)
@@ -228,7 +228,7 @@ class Writer:
             return self.spelled(signature.declared.result) or NOTHING
         root = signature.result.root
         called = signature.result.known is None and any(each.shape.root.calls for each in root.members.values())
-        return f"{'REFERENCE TO ' if called else ''}{self.type(signature.result, name)}"
+        return f"{REFERENCE * called}{self.type(signature.result, name)}"
 
     def _method(self, name: str, signature: Signature, body: bool) -> Iterator[str]:
         head = f"METHOD {'PUBLIC ' if body else ''}{name}"

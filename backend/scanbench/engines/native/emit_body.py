@@ -114,7 +114,16 @@ class Body:
 
     image = "%img"
 
-    def __init__(self, unit: Unit, pou: Pou, text: FunctionText, scalar: Evaluate, pieces: Pieces, run: Run) -> None:
+    def __init__(
+        self,
+        unit: Unit,
+        pou: Pou,
+        text: FunctionText,
+        scalar: Evaluate,
+        pieces: Pieces,
+        run: Run,
+        divided: bool | None = None,
+    ) -> None:
         self.unit = unit
         self.module = unit.module
         self.pou = pou
@@ -146,7 +155,7 @@ class Body:
         """In a loop whose checks are recorded later: what they note."""
         self.optimistic = False
         """Whether that loop runs as if nothing were outside, and once more if something was."""
-        self.divided = inlining.divided(pou) and unit.flavour is RUN
+        self.divided = inlining.divided(pou) and unit.flavour is RUN if divided is None else divided
         """Whether lists of statements are emitted in pieces."""
         self._swallowed = 0
         self._scalar = scalar
@@ -155,9 +164,7 @@ class Body:
 
     def inside(self, text: FunctionText) -> "Body":
         """What a piece of this body is emitted in."""
-        piece = Body(self.unit, self.pou, text, self._scalar, self._pieces, self._run)
-        piece.divided = False
-        return piece
+        return Body(self.unit, self.pou, text, self._scalar, self._pieces, self._run, divided=False)
 
     def swallow(self, callee: Pou) -> str:
         """The attribute of a call: a body takes up so much of the standard library, and no more."""
