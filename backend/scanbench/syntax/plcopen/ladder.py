@@ -134,7 +134,7 @@ class Rung:
         return path[0] if len(path) == 1 and path[0].startswith("<") else f"< {' '.join(path)} >"
 
     def _add(self, each: Thing, order: int) -> None:
-        if each.kind == "outVariable" and (each.negated or each.edge or each.storage or not self._of_box(each)):
+        if each.kind == "outVariable" and (each.edge or each.storage or not self._of_box(each)):
             raise NoLadder
         if each.kind in ("inVariable", "outVariable"):
             return
@@ -208,11 +208,13 @@ class Rung:
             raise NoLadder
         target = ""
         for pin in each.outputs:
-            taken = self._taken(each, pin)
+            taken, negated = self._taken(each, pin)
+            if pin is result and negated:
+                raise NoLadder
             if pin is result:
                 target = taken
             elif taken:
-                arguments.append(f"{'NOT ' if pin.negated else ''}{pin.name} => {taken}")
+                arguments.append(f"{'NOT ' if negated else ''}{pin.name} => {taken}")
         goes_on = next(iter(named), "")
         if named and result is not None and goes_on == result.name:
             return self._comparison(each, power)
@@ -232,15 +234,15 @@ class Rung:
         found = each.output(output)
         return output if found is None else found.name
 
-    def _taken(self, each: Thing, pin: Pin) -> str:
-        """The variable that takes an output."""
+    def _taken(self, each: Thing, pin: Pin) -> tuple[str, bool]:
+        """The variable that takes an output, and whether it is negated on the way."""
         found = [
-            other.name for other, output in self._consumers(each)
+            other for other, output in self._consumers(each)
             if other.kind == "outVariable" and self._named(each, output) == pin.name
         ]  # fmt: skip
         if len(found) > 1:
             raise NoLadder
-        return found[0] if found else pin.expression
+        return (found[0].name, found[0].negated != pin.negated) if found else (pin.expression, pin.negated)
 
     def _operand(self, pin: Pin) -> str:
         if not pin.ends:

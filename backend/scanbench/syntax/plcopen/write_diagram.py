@@ -127,8 +127,8 @@ class DiagramWriter:
         id = self._objects.block(block or callee, callee if block else "", inputs, outputs.negated)
         if any(name.upper() == "EN" for name, *_ in inputs):
             self._enabled.add(id)
-        for name, variable in outputs.variables:
-            self._objects.result(variable, [(id, name)])
+        for name, variable, negated in outputs.variables:
+            self._objects.result(variable, [(id, name)], negated=negated)
         for name, wire in outputs.wires:
             self._wires[wire.upper()] = ((id, name), False)
         return id, result

@@ -1,6 +1,7 @@
 """A rung -> objects of LD."""
 
 from scanbench.syntax import networks, tree
+from scanbench.syntax.plcopen import ladder
 from scanbench.syntax.plcopen.grouping import LEAVES
 from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, Outputs, text
 
@@ -16,6 +17,8 @@ class LadderWriter:
         self._known = known
         self._rail: End | None = None
         self._sent: dict[str, list[End]] = {}
+        self._shared = False
+        """Whether an output of a box with EN goes on as power, and is taken by a variable as well."""
 
     def rung(self, rung: networks.Rung) -> None:
         try:
@@ -28,14 +31,29 @@ class LadderWriter:
             raise CannotWrite("a rung that is switched off")
         self._objects.next_network()
         self._objects.head(rung.label, rung.span)
-        self._sent = {}
+        self._sent, self._shared = {}, False
         self._path(rung.path, [self.rail])
+        if self._shared and not self._is_ladder():
+            raise CannotWrite(
+                "a box with EN whose output goes on and is taken by a variable, in a rung that is read as a network: use its output in "
+                "a rung below"
+            )
         if any(isinstance(each, networks.Leave) for each in networks.elements(rung.path)):
             apart = [each for each in self._objects.networks() if any(one.kind != "label" for one in each)]
             if any(one.kind in LEAVES for each in apart[:-1] for one in each):
                 raise CannotWrite(
                     "a jump or RETURN before other branches of its rung, which then do not run: give these a rung above"
                 )
+
+    def _is_ladder(self) -> bool:
+        """Whether it is read as rungs: in a network a variable gets the value of a wire, also where EN keeps the box from being called."""
+        try:
+            for each in self._objects.networks():
+                if any(one.kind != "label" for one in each):
+                    ladder.Rung(each, {self.rail[0]}).elements()
+        except ladder.NoLadder:
+            return False
+        return True
 
     @property
     def rail(self) -> End:
@@ -99,7 +117,7 @@ class LadderWriter:
         objects, callee = self._objects, text(each.callee)
         block = self._known.types.get(callee.upper(), "")
         inputs: list[tuple[str, list[End], str, bool]] = []
-        outputs = Outputs({each.output: False} if each.output else {})
+        outputs = Outputs(power=each.output)
         count = sum(isinstance(one, networks.Branch) or not one.output for one in each.arguments)
         for number, argument in enumerate(each.arguments):
             name = argument.name or self._known.formal(callee, number, count)
@@ -115,10 +133,11 @@ class LadderWriter:
         if each.result is not None or (not block and self._known.has_result(callee, outputs)):
             outputs.negated[result] = False
         if each.result is not None:
-            outputs.variables.append((result, text(each.result)))
+            outputs.variables.append((result, text(each.result), False))
+        self._shared |= outputs.shared and any(name.upper() == "EN" for name, *_ in inputs)
         id = objects.block(block or callee, callee if block else "", inputs, outputs.negated)
-        for name, variable in outputs.variables:
-            objects.result(variable, [(id, name)])
+        for name, variable, negated in outputs.variables:
+            objects.result(variable, [(id, name)], negated=negated)
         for name, link in outputs.wires:
             self._sent[link.removeprefix(networks.WIRE).upper()] = [(id, name)]
         return [(id, each.output)] if each.output else power

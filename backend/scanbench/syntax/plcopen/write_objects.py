@@ -110,9 +110,9 @@ class Objects:
         add(made, "expression").text = written
         return id, ""
 
-    def result(self, written: str, ends: Sequence[End], storage: str = "none") -> None:
+    def result(self, written: str, ends: Sequence[End], storage: str = "none", negated: bool = False) -> None:
         """An object that takes one."""
-        _, made = self.make("outVariable", storage=storage)
+        _, made = self.make("outVariable", storage=storage, **({"negated": "true"} if negated else {}))
         self.connect(made, ends)
         add(made, "expression").text = written
 
@@ -143,21 +143,34 @@ class Outputs:
 
     negated: dict[str, bool] = field(default_factory=dict)
     """All outputs of the box."""
-    variables: list[tuple[str, str]] = field(default_factory=list)
+    variables: list[tuple[str, str, bool]] = field(default_factory=list)
+    """By output; and whether it is negated on the way, where the output itself is not."""
     wires: list[tuple[str, str]] = field(default_factory=list)
+    power: str = ""
+    """The output whose value goes on as power, '' if none does. That may be taken besides."""
+
+    shared: bool = False
+    """Whether it is."""
+
+    def __post_init__(self) -> None:
+        if self.power:
+            self.negated[self.power] = False
 
     def take(self, argument: tree.Argument) -> None:
         """`Q => q`, `NOT Q => #q`."""
         name, value = argument.name or "", argument.value
         if value is None:
             return
-        if name in self.negated:
-            raise CannotWrite(f"the output {name} of a box, which is taken twice")
-        self.negated[name] = argument.negated
+        shared = bool(self.power) and name.upper() == self.power.upper()
+        if shared and argument.negated and is_wire(value):
+            raise CannotWrite(f"the output {name} of a box, which goes on as it is and negated to a link")
+        if shared:
+            name, self.shared = self.power, True
+        self.negated[name] = argument.negated and not shared
         if is_wire(value):
             self.wires.append((name, value.name))
         else:
-            self.variables.append((name, text(value)))
+            self.variables.append((name, text(value), argument.negated and shared))
 
 
 @dataclass(frozen=True, slots=True)
