@@ -63,10 +63,10 @@ def _tell_placeholders(report: Report, files: Iterable[tree.File]) -> None:
                 first[key] = min(first.get(key, place), place, key=_order)
     for key, where in first.items():
         name, said = kinds[key]
-        report.warn("W008", f"`{name}` is a placeholder, as its library is missing: {said}", where)
+        report.warn("W008", f"`{name}` is a placeholder, as what declares it is missing: {said}", where)
 
 
-_INFERRED = "what it has is inferred from its use, and it does nothing. Correct it in libraries/Placeholders.st, or put the library there."
+_INFERRED = "what it has is inferred from its use, and it does nothing. Correct it in libraries/Placeholders.st, or put what declares it there."
 
 
 def _assumed(number: tree.Initial) -> str:

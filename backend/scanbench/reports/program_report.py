@@ -251,7 +251,7 @@ def pou_lines(whole: FileReport) -> list[str]:
         lines.append(f"{whole.stubbed} of these {whole.run} use stubs, whose results the user sets")
     if whole.placeheld:
         lines.append(
-            f"{whole.placeheld} of these {whole.run} use placeholders: what a missing library declares is inferred from its use"
+            f"{whole.placeheld} of these {whole.run} use placeholders: what a missing library or file declares is inferred from its use"
         )
     lines.append(f"{whole.clean} of {whole.pous} POUs ({_share(whole.clean, whole.pous)}) have no error of their own")
     return lines

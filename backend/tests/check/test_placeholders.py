@@ -2,7 +2,9 @@
 
 from scanbench.check.build import check_sources
 from scanbench.check.dialect_table import dialect_in
+from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.check.placeholders.placeholders import PATH, placeholders
+from scanbench.check.placeholders.quoted import quoted_names
 from scanbench.problems import Problem, Severity
 from scanbench.reports.program_report import pou_lines, program_report, whole_of
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
@@ -71,10 +73,10 @@ def test_use_says_what_a_library_declares() -> None:
     assert "rSpeed : REAL; stState : stState_Placeholder;" in one
     told = [each.message for each in problems if each.code == "W008"]
     assert any("`MAX_PARTS` is a placeholder" in each and "10 is assumed" in each for each in told)
-    assert any("`FB_Drive` is a placeholder, as its library is missing" in each for each in told)
+    assert any("`FB_Drive` is a placeholder, as what declares it is missing" in each for each in told)
     lines = pou_lines(whole_of(program_report(sources, problems, ["Parts"]).files))
     assert lines[0].startswith("3 of 3 POUs")
-    assert "3 of these 3 use placeholders: what a missing library declares is inferred from its use" in lines
+    assert "3 of these 3 use placeholders: what a missing library or file declares is inferred from its use" in lines
 
 
 def test_a_mistake_in_what_the_project_declares_stays_one() -> None:
@@ -196,3 +198,58 @@ END_FUNCTION_BLOCK
     text, _, problems = checked(machine)
     assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
     assert "GVL_Parts : GVL_Parts_Placeholder;" in text
+
+
+SCL = """FUNCTION_BLOCK "Motor"
+VAR_INPUT start : Bool; config : "MotorConfig"; END_VAR
+VAR_IN_OUT drive : "Drive"; END_VAR
+VAR scaling : "Scaling"; state : Int; i : Int; speed : Real; timer : TON_TIME; END_VAR
+BEGIN
+#timer(IN := #start AND NOT "Stop 1", PT := #config.delay);
+IF "Config".motors[120].enabled AND "Config".limit > 12.5 THEN "Lamp" := #timer.Q; END_IF;
+"Pause".TON(IN := #start, PT := T#2s);
+#scaling(in := 5, high := "Config".high, out => #speed);
+#speed := "Average"(raw := "Level", low := 0.0) + "Sel";
+"Wait"(timer := #timer);
+"Pump_DB"(start := #start);
+IF "Pump_DB".running THEN "Count" := "Count" + #i; END_IF;
+CASE #state OF
+  "RUNS": #state := 1;
+  "FAILS", 3: #state := 0;
+END_CASE;
+FOR #i := 0 TO "MAX_MOTORS" DO #drive.list[#i].speed := 2.5; END_FOR;
+#mistyped := 1;
+END_FUNCTION_BLOCK
+ORGANIZATION_BLOCK "Main"
+BEGIN
+"Motor_DB"(start := "Start", drive := "Drives".first);
+END_ORGANIZATION_BLOCK
+DATA_BLOCK "Motor_DB"
+"Motor"
+BEGIN
+END_DATA_BLOCK
+"""
+
+
+def test_names_in_the_quotes_of_scl_that_no_file_declares() -> None:
+    sources = {"motor.scl": SCL, LANGUAGE_FILE: language_text("siemens")}
+    sources |= {each.path: each.text for each in used_libraries(sources, "siemens")}
+    quoted = quoted_names(sources)
+    assert {"MOTOR", "STOP_1", "SEL", "FAILS"} <= quoted
+    found = placeholders(sources, (), dialect_in(sources).prefixes, quoted)
+    assert found is not None
+    one = " ".join(found[0].split())
+    for text in (
+        "Stop_1 : Bool;", "Lamp : BOOL;", "Pause : IEC_TIMER;", "Count : Int;", "Sel : Real;", "MAX_MOTORS : Int;",
+        "motors : ARRAY[0..120] OF Config_Placeholder_motors_Placeholder;", "limit : REAL;",
+        "FUNCTION_BLOCK Scaling {stub} VAR_INPUT in : DINT;", "VAR_OUTPUT out : Real; END_VAR", "FUNCTION Average : Real {stub}",
+        "VAR_IN_OUT timer : TON_TIME; END_VAR", "FUNCTION_BLOCK Pump_DB_Placeholder {stub}", "TYPE Drive : STRUCT",
+        "VAR_GLOBAL CONSTANT RUNS : Int := 10001; FAILS : Int := 10002; END_VAR",
+    ):  # fmt: skip
+        assert text in one, text
+    assert "mistyped" not in one
+    sources |= {PATH: found[0]}
+    sources |= {each.path: each.text for each in used_libraries(sources, "siemens")}
+    problems = check_sources(sources, MODELS["GENERIC-IEC"]).problems
+    assert [each.code for each in problems if each.severity is Severity.ERROR] == ["T001"]
+    assert sum("is a placeholder, as what declares it is missing" in each.message for each in problems) == 18

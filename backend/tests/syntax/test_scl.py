@@ -128,7 +128,7 @@ def test_a_time_is_compared_with_a_number_of_milliseconds() -> None:
 @pytest.mark.parametrize(
     ("line", "code", "told"),
     [
-        ("#w := PEEK_WORD(area := 16#84, dbNumber := 1, byteOffset := 0);", "X001", "no computed addresses"),
+        ("#i := DB_ANY_TO_VARIANT(IN := #w);", "X001", "no numbers here"),
         ("#i := VariantGet(SRC := #i, DST => #s);", "T010", "is a statement"),
         ("VariantGet(SRC := #i, DST => #s);", "T002", "is a Variant"),
         ("VariantPut(SRC := #i);", "T004", "SRC and DST"),

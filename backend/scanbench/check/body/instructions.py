@@ -26,23 +26,14 @@ TIMES = {"T_ADD": "add", "T_SUB": "sub", "T_DIFF": "sub"}
 """Instructions that are `+` or `-` but for DTL, of which the library has functions."""
 BY_OUTPUT = frozenset(("RD_SYS_T", "RD_LOC_T"))
 """Instructions that the library has for LDT and DT as well, by the type of OUT."""
-AS_INPUTS = frozenset(("MOVE_BLK_VARIANT", "BLKMOV", "UBLKMOV", "FILL", "DPRD_DAT"))
+AS_INPUTS = frozenset("MOVE_BLK_VARIANT BLKMOV UBLKMOV FILL DPRD_DAT ATH HTA SERIALIZE DESERIALIZE".split())
 """Functions of the library whose outputs are a Variant, which is passed as an input."""
 OF_STRINGS = frozenset(("CONCAT", "LEN", "LEFT", "RIGHT", "MID", "INSERT", "DELETE", "REPLACE", "FIND"))
 """Functions of texts, whose names may end with `_STRING` or `_WSTRING`."""
 """Instructions whose type is that of these arguments; the library has them for each type."""
 
 RESET = frozenset(("TON", "TON_TIME", "TON_LTIME", "IEC_TIMER"))
-_MEMORY = (
-    "memory has no computed addresses here. Write the address, `%MB4`, or the name of a variable and its parts, `x.%B0`"
-)
-_BYTES = "data has other bytes here than in a controller of Siemens. Assign the members one by one"
-REFUSED = {
-    **dict.fromkeys(("PEEK", "POKE"), _MEMORY),
-    "DB_ANY_TO_VARIANT": "data blocks have no numbers here. Pass the data block itself",
-    **dict.fromkeys(("SERIALIZE", "DESERIALIZE", "ATH", "HTA"), _BYTES),
-    "STP": "a program does not stop the virtual PLC. Set a variable instead, and halt where it is TRUE",
-}
+REFUSED = {"DB_ANY_TO_VARIANT": "data blocks have no numbers here. Pass the data block itself"}
 """Beginnings of names of instructions that are known, and what to do instead."""
 
 

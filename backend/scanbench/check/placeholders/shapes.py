@@ -34,6 +34,8 @@ class Shape:
     """Parts that are asked for, by name in upper case."""
     element: "Shape | None" = None
     dimensions: int = 0
+    top: int = 99
+    """Of an array: the highest index that is written, and that of one whose indices nobody writes."""
     calls: "Signature | None" = None
     """How it is called as a function, or as an instance."""
     alike: "Shape | None" = None
@@ -162,6 +164,7 @@ def join(left: Shape, right: Shape) -> None:
     left.literals |= right.literals
     left.names |= right.names
     left.element = left.element or right.element
+    left.top = max(left.top, right.top)
     left.dimensions = left.dimensions or right.dimensions
     left.calls = left.calls or right.calls
     for key, member in right.members.items():

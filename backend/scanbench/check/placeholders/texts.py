@@ -5,10 +5,13 @@ from collections.abc import Iterable, Iterator
 from scanbench.check.placeholders.shapes import ORDER, Member, Shape, Signature, Unknown, elementary, variables
 from scanbench.check.placeholders.world import World
 from scanbench.syntax import tree
+from scanbench.syntax.parse_st import parse_st
+from scanbench.syntax.source import Source
 
 NOTHING = "DWORD"
 """The type of what nothing is known of: it only goes from one of these names to another."""
-BOUNDS = "0..99"
+SHORTER = {"LREAL": "REAL", "STRING[255]": "STRING[254]"}
+"""What the TIA Portal has in their place."""
 ASSUMED = 10
 """Of a constant that is the bound of an array, say."""
 REFERENCE = "REFERENCE TO "
@@ -38,8 +41,10 @@ class Writer:
                 f"  {each.name} : {self._constant(each) if fixed else self.type(each.shape, each.name)};"
                 for each in kept
             ]
+            lines = [each for each in lines if not parse_st(Source("", f"VAR_GLOBAL {each} END_VAR"))[1]]
             self.made += ["\n".join([word, *lines, "END_VAR"])] if lines else []
-        return "\n\n".join(self.made)
+        # a tag or a member may be called like a keyword of the standard
+        return "\n\n".join(each for each in self.made if not parse_st(Source("", each))[1])
 
     def _constant(self, each: Member) -> str:
         """What has to be a number before anything runs: one that the user sees and corrects."""
@@ -58,9 +63,10 @@ class Writer:
         if root.members or root.calls is not None:
             return self.names.get(id(root)) or self._structure(root, name)
         if root.element is not None:
-            bounds = ", ".join([BOUNDS] * max(1, root.dimensions))
+            bounds = ", ".join([f"0..{root.top}"] * max(1, root.dimensions))
             return f"ARRAY[{bounds}] OF {self.type(root.element, name)}"
-        return shape.literal or NOTHING
+        literal = shape.literal or NOTHING
+        return literal if self.world.only is None else SHORTER.get(literal, literal)
 
     def spelled(self, spec: tree.TypeSpec) -> str | None:
         """A type as it is written; None of one that has no name."""
@@ -176,10 +182,13 @@ class Writer:
         yield "END_FUNCTION_BLOCK"
 
     def _inputs(self, members: list[Member], owner: str, head: str) -> Iterator[str]:
-        if members:
-            yield head
-            yield from (f"  {each.name} : {self._input(each, owner)};" for each in members)
-            yield "END_VAR"
+        types = [(each.name, self._input(each, owner)) for each in members]
+        in_outs = [each for each in types if self.world.only is not None and each[1].startswith(REFERENCE)]
+        for section, kept in ((head, [each for each in types if each not in in_outs]), ("VAR_IN_OUT", in_outs)):
+            if kept:
+                yield section
+                yield from (f"  {name} : {type.removeprefix(REFERENCE) if in_outs else type};" for name, type in kept)
+                yield "END_VAR"
 
     def _property(self, owner: Unknown, member: Member, body: bool) -> Iterator[str]:
         """One of an interface: with parts that are written it is a reference, else both are there."""
@@ -247,7 +256,9 @@ class Writer:
                     yield f"{section.keyword} {variable.name} : {self.spelled(variable.type) or NOTHING}; END_VAR"
             return
         for each in signature.inputs.values():
-            yield f"VAR_INPUT {each.name} : {self._input(each, name, call=True)}; END_VAR"
+            type = self._input(each, name, call=True)
+            in_out = self.world.only is not None and type.startswith(REFERENCE)
+            yield f"{'VAR_IN_OUT' if in_out else 'VAR_INPUT'} {each.name} : {type.removeprefix(REFERENCE) if in_out else type}; END_VAR"
         for each in signature.outputs.values():
             yield f"VAR_OUTPUT {each.name} : {self.type(each.shape, f'{name}_{each.name}')}; END_VAR"
 

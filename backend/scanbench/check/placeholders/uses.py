@@ -3,9 +3,10 @@
 from collections.abc import Iterable
 
 from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, join, named, of_type, variables
-from scanbench.check.placeholders.world import CONVERSION, ENUMERATION, World
+from scanbench.check.placeholders.world import CONVERSION, ENUMERATION, INSTRUCTIONS, LABELS, World
 from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import GLOBAL_MARK
 
 _FIRST = frozenset("MAX MIN ABS LIMIT SEL MUX MOVE SHL SHR ROL ROR SQRT EXPT".split())
 _TEXTS = frozenset("CONCAT LEFT RIGHT MID INSERT DELETE REPLACE".split())
@@ -126,7 +127,12 @@ class Body:
         return key in self.world.prefixes or key in self.world.lists or self.world.is_list(owner.name)
 
     def _label(self, label: tree.Expression) -> None:
-        """A label `E.Value` is a value of an enumeration, whatever that is called: a part of a variable is none."""
+        """A label `E.Value` is a value of an enumeration, whatever that is called: a part of a variable is none.
+        A name alone is a constant."""
+        if self.world.only is not None and isinstance(label, tree.Name) and label.name.upper() not in self.local:
+            key = label.name.removeprefix(GLOBAL_MARK).upper()
+            self.world.fixed.add(key)
+            self.world.counted.setdefault(key, LABELS + len(self.world.counted))
         owner = self._plain(label.owner) if isinstance(label, tree.MemberOf) else None
         if not isinstance(owner, tree.Name) or owner.name.upper() in self.local or self._before(owner):
             return
@@ -163,7 +169,10 @@ class Body:
             case tree.MemberOf():
                 return self._member(each)
             case tree.IndexOf(array=array, indices=indices):
-                return self.index(self.of(array), [self.of(one) for one in indices])
+                owner = self.of(array)
+                written = [one.value for one in indices if isinstance(one, tree.Literal) and isinstance(one.value, int)]
+                owner.root.top = max(owner.root.top, *written, 0)
+                return self.index(owner, [self.of(one) for one in indices])
             case tree.Dereference(reference=reference):
                 if isinstance(reference, tree.Name) and reference.name.upper() in ("THIS", "SUPER"):
                     return self.of(reference)
@@ -199,9 +208,10 @@ class Body:
         return left if left.known is not None else right
 
     def _name(self, name: str, at: tree.Expression) -> Shape:
-        key = name.upper()
-        if key in self.local:
+        key = name.removeprefix(GLOBAL_MARK).upper()
+        if key in self.local and not name.startswith(GLOBAL_MARK):
             return of_type(self.local[key])
+        name = name.removeprefix(GLOBAL_MARK)
         if key in ("THIS", "SUPER"):
             base = self.pou.extends[0] if self.pou.extends and key == "SUPER" else named(self.pou.name, at)
             return of_type(base)
@@ -212,7 +222,8 @@ class Body:
             return of_type(named(name, at))
         if key in world.values:
             return of_type(world.values[key])
-        if key in world.lists or world.has_function(key) or key in world.prefixes:
+        quoted = world.only is not None and key in world.only  # a tag may be called like a function
+        if key in world.lists or (world.has_function(key) and not quoted) or key in world.prefixes:
             return Shape()
         if self.base is not None:
             member = self.base.member(name)
@@ -251,6 +262,8 @@ class Body:
         return self.world.globals.get(f"{owner.name}.{name}".upper())
 
     def _called_enumeration(self, name: str) -> bool:
+        if self.world.only is not None:
+            return False
         return name.upper() not in self.world.unknown_globals and ENUMERATION.fullmatch(name) is not None
 
     def index(self, array: Shape, indices: list[Shape]) -> Shape:
@@ -282,9 +295,11 @@ class Body:
             callee = tree.Name(callee.name, callee.span)
         if not isinstance(callee, tree.Name):
             return self._instance(each, self.of(callee))
+        marked = callee.name.startswith(GLOBAL_MARK)
+        callee = tree.Name(callee.name.removeprefix(GLOBAL_MARK), callee.span)
         key = callee.name.upper()
         own = next((one for one in (*self.pou.methods,) if one.name.upper() == key), None)
-        if key in self.local and own is None:
+        if key in self.local and own is None and not marked:
             return self._instance(each, self.of(callee))
         declared = own or world.functions.get(key)
         if declared is not None:
@@ -302,6 +317,9 @@ class Body:
 
     def _method(self, each: tree.Call, callee: tree.MemberOf, used: bool) -> Shape:
         owner = self.of(callee.owner)
+        instance = INSTRUCTIONS.get(callee.name.upper())
+        if self.world.only is not None and instance and owner.known is None:
+            join(owner, of_type(named(instance, callee)))
         found = self.world.resolved(owner.known)
         if isinstance(found, tree.StructSpec):
             return self._instance(each, self.world.part(owner, callee.name))
@@ -333,6 +351,8 @@ class Body:
     ) -> None:
         for number, each in enumerate(arguments, 1):
             name = each.name or f"in{number}"
+            if name.upper() in ("EN", "ENO"):
+                continue
             table = outputs if each.output else inputs
             member = table.setdefault(name.upper(), Member(name, Shape()))
             member.written, member.output = not each.output, each.output

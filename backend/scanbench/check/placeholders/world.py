@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from scanbench.check.declare.vendor_types import VENDOR_TYPES
-from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, of_type, variables
+from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, join, of_type, variables
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import library
 from scanbench.program.types import ELEMENTARY
@@ -19,6 +19,13 @@ LIST = re.compile(
 )
 """What a list of global variables is called."""
 INTERFACE = re.compile(r"I_\w+|I[A-Z][a-z]\w*")
+INSTRUCTIONS = {
+    **dict.fromkeys(("TON", "TOF", "TP", "TONR"), "IEC_TIMER"),
+    **dict.fromkeys(("CTU", "CTD", "CTUD"), "IEC_COUNTER"),
+}
+"""Instructions of the TIA Portal that are called of an instance, and the type of that."""
+LABELS = 10001
+"""The number of the first constant that is a label of CASE; the next has the next, as no two labels are the same."""
 _OPERATORS = frozenset(
     "ADR BITADR SIZEOF XSIZEOF TRUNC TRUNC_INT REF THIS SUPER NULL TEST_AND_SET UPPER_BOUND LOWER_BOUND INDEXOF "
     "ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE STRING WSTRING TIME LTIME EN ENO".split()
@@ -28,7 +35,15 @@ _OPERATORS = frozenset(
 class World:
     """The declarations of all files, and what was found of names that none has."""
 
-    def __init__(self, files: Iterable[tree.File], prefixes: frozenset[str], missing: Iterable[str]) -> None:
+    def __init__(
+        self,
+        files: Iterable[tree.File],
+        prefixes: frozenset[str],
+        missing: Iterable[str],
+        only: frozenset[str] | None = None,
+    ) -> None:
+        self.only = only
+        """The names that may be missing, in upper case; None where any may, and where names say what they are of."""
         self.types: dict[str, tree.TypeDeclaration | tree.PouDeclaration] = {}
         self.functions: dict[str, tree.PouDeclaration] = {}
         self.globals: dict[str, tree.TypeSpec] = {}
@@ -72,10 +87,14 @@ class World:
         """Whether it is a function, a conversion or an operator that exists."""
         known = name in self.functions or name in FUNCTIONS or name in _OPERATORS or name.startswith("__")
         found = CONVERSION.fullmatch(name)
+        if self.only is not None and name in self.only:
+            return known
         return known or name.partition("_")[0] in FUNCTIONS or (found is not None and found[2] in ELEMENTARY)
 
     def is_list(self, name: str) -> bool:
         """Whether it is called like a list of global variables, and is nothing else."""
+        if self.only is not None:
+            return False
         key = name.upper()
         known = key in self.globals or key in self.types or self.has_function(key) or key in self.unknown
         return key in self.unknown_lists or (not known and LIST.fullmatch(name) is not None)
@@ -99,17 +118,34 @@ class World:
             key = name.upper()
             declared = self.types.get(key)
             if declared is None:
-                return (
-                    spec
-                    if self.has_type(key) or "." in name
-                    else self.unknown.setdefault(key, Unknown(name, interface=INTERFACE.fullmatch(name) is not None))
-                )
+                return spec if self.has_type(key) or "." in name else self.unknown.setdefault(key, self._of(name))
             if isinstance(declared, tree.PouDeclaration):
                 return declared
             if isinstance(declared.type, tree.EnumSpec | tree.SubrangeSpec):
                 return spec
             spec = declared.type
         return None
+
+    def _of(self, name: str) -> Unknown:
+        return Unknown(name, interface=self.only is None and INTERFACE.fullmatch(name) is not None)
+
+    def settle(self) -> None:
+        """Makes one of what is called like a function, and has parts or is written like a variable: the data block of an instance.
+        Drops what may not be missing."""
+        if self.only is None:
+            return
+        for table in (self.unknown, self.unknown_functions, self.unknown_globals):
+            for key in [each for each in table if each not in self.only]:
+                del table[key]
+        for key in self.unknown_functions.keys() & self.unknown_globals.keys():
+            root = self.unknown_globals[key].shape.root
+            called = self.unknown_functions.pop(key)[1]
+            root.calls = root.calls or Signature()
+            for name, member in (*called.inputs.items(), *called.outputs.items()):
+                if name in root.members:
+                    join(root.members[name].shape, member.shape)
+                else:
+                    root.members[name] = member
 
     def bases(self, pou: tree.PouDeclaration) -> Sequence[tree.PouDeclaration | Unknown]:
         """What a block or interface extends, and what these do."""
