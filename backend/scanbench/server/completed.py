@@ -7,7 +7,7 @@ from pathlib import PurePath
 from scanbench.check.dialect_table import DIALECTS, dialect_in
 from scanbench.check.libraries.catalogue import catalogue, library_of_file, used_libraries
 from scanbench.check.placeholders.placeholders import PATH, placeholders
-from scanbench.check.placeholders.quoted import quoted_names
+from scanbench.check.placeholders.quoted import seldom_declared
 from scanbench.server.twincat_project import TwinCatProject, missing_libraries
 from scanbench.server.twincat_tasks import FILE, configuration
 from scanbench.syntax.language_file import LANGUAGE_FILE, dialect_of, is_language_file, with_namespaces
@@ -18,7 +18,7 @@ _CONFIGURATION = re.compile(r"^\s*CONFIGURATION\b", re.IGNORECASE | re.MULTILINE
 def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (), folder: str = "") -> dict[str, str]:
     """The files of a project at `folder`, with the texts of the libraries that they use. The names of these TwinCAT projects, whose
     files are among them, may be written before other names, what they define is defined, and their tasks are a CONFIGURATION.
-    Where they refer to libraries that nobody has, or name in quotes of SCL what no file declares, placeholders take the places of these.
+    Where they refer to libraries that nobody has, or name in quotes of SCL, or as a module of Logix, what no file declares, placeholders take the places of these.
 
     Nothing is different in the strict language, which has no libraries.
     """
@@ -39,7 +39,7 @@ def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (),
 def _with_placeholders(made: dict[str, str], projects: Collection[TwinCatProject], folder: str) -> dict[str, str]:
     """The files with what their use says of the names of libraries that they refer to and nobody has."""
     missing = unknown_libraries(projects, made)
-    quoted = quoted_names(made) if dialect_of(made)[0] == "siemens" else frozenset()
+    quoted = seldom_declared(made, dialect_of(made)[0])
     path = str(PurePath(folder, PATH))
     if not (missing or quoted) or path in made:
         return made

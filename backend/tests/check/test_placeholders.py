@@ -4,7 +4,7 @@ from scanbench.check.build import check_sources
 from scanbench.check.dialect_table import dialect_in
 from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.check.placeholders.placeholders import PATH, placeholders
-from scanbench.check.placeholders.quoted import quoted_names
+from scanbench.check.placeholders.quoted import module_tags, quoted_names, seldom_declared
 from scanbench.problems import Problem, Severity
 from scanbench.reports.program_report import pou_lines, program_report, whole_of
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
@@ -253,3 +253,25 @@ def test_names_in_the_quotes_of_scl_that_no_file_declares() -> None:
     problems = check_sources(sources, MODELS["GENERIC-IEC"]).problems
     assert [each.code for each in problems if each.severity is Severity.ERROR] == ["T001"]
     assert sum("is a placeholder, as what declares it is missing" in each.message for each in problems) == 18
+
+
+def test_tags_of_modules_that_no_file_declares() -> None:
+    text = """PROGRAM Main
+VAR lamp : BOOL; level : REAL; n : DINT; Own_I : DINT; END_VAR
+IF Local_1_I.Data.3 AND NOT Local_1_I.Fault.0 THEN Rack_2_O1.Data.1 := lamp; END_IF
+level := Analog_I.Ch0Data * 2.0;
+(* Comment_I.x *)
+n := Own_I + Missing;
+END_PROGRAM
+"""
+    sources = {"main.st": text, LANGUAGE_FILE: language_text("rockwell")}
+    assert module_tags(sources) == {"LOCAL_1_I", "RACK_2_O1", "ANALOG_I"}
+    assert seldom_declared(sources, "rockwell") == module_tags(sources)
+    assert seldom_declared(sources, "codesys") == frozenset()
+    found = placeholders(sources, (), frozenset(), module_tags(sources))
+    assert found is not None
+    one = " ".join(found[0].split())
+    for each in ("Data : DINT; Fault : DINT;", "Ch0Data : REAL;", "Local_1_I : Local_1_I_Placeholder;"):
+        assert each in one, each
+    problems = check_sources(sources | {PATH: found[0]}, MODELS["GENERIC-IEC"]).problems
+    assert [each.message[:28] for each in problems if each.severity is Severity.ERROR] == ["`Missing` is not declared."]

@@ -12,7 +12,7 @@ from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
 
 PATH = f"{FOLDER}/{PLACEHOLDERS}.st"
-_QUOTED = """(* Placeholders for what these programs name in quotes, and no file of them declares: tags of the PLC, data blocks, blocks, types.
+_QUOTED = """(* Placeholders for what these programs name, and no file of them declares: tags of the PLC or of modules, data blocks, blocks, types.
    Types, inputs, outputs and members are those that the use tells, numbers of constants are not known, and no body is.
    Add the files that declare them and delete them here, or correct them. *)"""
 ROUNDS = 3
