@@ -1,6 +1,6 @@
 """Sequential function charts as text: steps, their actions, transitions. The drawing follows from FROM and TO."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from scanbench.problems import Span
@@ -18,6 +18,8 @@ MEMORIES = {
     "SD": ("SD",), "DS": ("DS",), "SL": ("SL",),
 }  # fmt: skip
 """What an action keeps for each of its qualifiers, BOOL each; a timed one also has whether its time runs, since when, and how long."""
+IN_ACTION = "/"
+"""In the name of a hidden variable: between the ACTION whose chart has it, and what it is of."""
 
 
 @node
@@ -61,7 +63,9 @@ class Chart:
     transitions: tuple[Transition, ...]
     span: Span
     owner: str = ""
-    """The name of the POU."""
+    """The name of the POU, or of POU and ACTION."""
+    action: str = ""
+    """The name of the ACTION whose body it is; '' where it is the body of the POU."""
     whole: bool = True
     """False: a step or transition of it could not be read, and is not in here."""
 
@@ -104,9 +108,16 @@ def uses(chart: Chart) -> tuple[Use, ...]:
     return tuple(made)
 
 
-def kept(name: str, what: str) -> str:
-    """The hidden variable of an action: its Q, what a qualifier remembers; of a timed one `L.on`, `L.since` and `L.time`."""
-    return f"${name}.{what}"
+def kept(chart: Chart, name: str, what: str) -> str:
+    """The hidden variable of an action: its Q, what a qualifier remembers; of a timed one `L.on`, `L.since` and `L.time`.
+    Each chart of a POU has a control of its own."""
+    return f"${chart.action}{IN_ACTION}{name}.{what}" if chart.action else f"${name}.{what}"
+
+
+def controls(name: str, members: Iterable[str]) -> list[str]:
+    """Of members of an instance, those that are Q of this action, one for each chart that names it; all in upper case."""
+    own, inner = f"${name}.Q".upper(), f"{IN_ACTION}{name}.Q".upper()
+    return [each for each in members if each == own or each.endswith(inner)]
 
 
 def begun(chart: Chart) -> str:
@@ -127,11 +138,11 @@ def _variables(chart: Chart) -> Iterator[tree.Variable]:
         yield made(step.name.name, STEP, step.name.span)
     yield made(begun(chart), "BOOL", chart.span)
     for use in uses(chart):
-        yield made(kept(use.name, "Q"), "BOOL", use.first.span)
+        yield made(kept(chart, use.name, "Q"), "BOOL", use.first.span)
         for qualifier in use.by_qualifier:
             for memory in MEMORIES[qualifier]:
-                yield made(kept(use.name, memory), "BOOL", use.first.span)
+                yield made(kept(chart, use.name, memory), "BOOL", use.first.span)
             if qualifier in TIMED:
-                yield made(kept(use.name, f"{qualifier}.on"), "BOOL", use.first.span)
-                yield made(kept(use.name, f"{qualifier}.since"), "TIME", use.first.span)
-                yield made(kept(use.name, f"{qualifier}.time"), "TIME", use.first.span)
+                yield made(kept(chart, use.name, f"{qualifier}.on"), "BOOL", use.first.span)
+                yield made(kept(chart, use.name, f"{qualifier}.since"), "TIME", use.first.span)
+                yield made(kept(chart, use.name, f"{qualifier}.time"), "TIME", use.first.span)

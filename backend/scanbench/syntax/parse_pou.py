@@ -384,14 +384,19 @@ def _joined(first: Body, second: Body) -> Body:
 
 
 def with_member(pou: tree.PouDeclaration, members: list[tree.PouDeclaration]) -> tree.PouDeclaration:
-    """A POU with these members. What edges and loops of an ACTION remember are variables of the POU."""
+    """A POU with these members. What edges, loops and charts of an ACTION remember are variables of the POU."""
     own = [_owned(each, pou.name) for each in members]
     bodies = [each.body for each in own if ACTION in each.modifiers and pou.kind in ("program", "function_block")]
     kept = [section for body in bodies if isinstance(body, NetworkBody) for section in memories(body)]
+    charts = [body for body in bodies if isinstance(body, Chart)]
+    kept += [section for body in charts for section in (*variables(body), *memories(body.conditions))]
     return replace(pou, methods=(*pou.methods, *own), sections=(*pou.sections, *kept))
 
 
 def _owned(member: tree.PouDeclaration, owner: str) -> tree.PouDeclaration:
-    if not isinstance(member.body, NetworkBody):
-        return member
-    return replace(member, body=replace(member.body, owner=f"{owner}.{member.name}"))
+    named = f"{owner}.{member.name}"
+    if isinstance(member.body, NetworkBody):
+        return replace(member, body=replace(member.body, owner=named))
+    if isinstance(member.body, Chart):
+        return replace(member, body=replace(member.body, owner=named, action=member.name))
+    return member

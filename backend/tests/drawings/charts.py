@@ -174,7 +174,8 @@ def chart(draws: Draws) -> tuple[Machine, list[Values]]:
     return Machine(steps, transitions), [draws.values(dict.fromkeys(INPUTS, (0, 1))) for _ in range(SCANS)]
 
 
-def text_of(machine: Machine) -> str:
+def text_of(machine: Machine, within: bool = False) -> str:
+    """The chart as the body of a program, or of an ACTION that this calls."""
     steps = "".join(
         f"{'INITIAL_' if number == 0 else ''}STEP S{number}:\n{''.join(f'  {each}' + chr(10) for each in step)}END_STEP\n"
         for number, step in enumerate(machine.steps)
@@ -187,11 +188,14 @@ def text_of(machine: Machine) -> str:
     counts = ", ".join(f"{kind}{each}" for each in ACTIONS for kind in "nq")
     lines = "\n".join(map(str, machine.transitions))
     names = ", ".join((*INPUTS, *OUTPUTS))
-    return f"PROGRAM Main\nVAR {names} : BOOL; {counts} : INT; END_VAR\n{steps}{actions}{lines}\nEND_PROGRAM\n"
+    own = f"Work();\n{actions}ACTION Work:\n{steps}{lines}\nEND_ACTION\n"
+    body = own if within else f"{steps}{actions}{lines}\n"
+    return f"PROGRAM Main\nVAR {names} : BOOL; {counts} : INT; END_VAR\n{body}END_PROGRAM\n"
 
 
 def drawn(draws: Draws) -> Drawn:
     made, sets = chart(draws)
+    within = draws.integer(0, 3) == 3
 
     def begin() -> Evaluate:
         machine = Machine(made.steps, made.transitions)
@@ -206,4 +210,4 @@ def drawn(draws: Draws) -> Drawn:
 
         return evaluate
 
-    return Drawn(text_of(made), sets, begin)
+    return Drawn(text_of(made, within), sets, begin)

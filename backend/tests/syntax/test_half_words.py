@@ -101,7 +101,16 @@ def test_a_loop_without_its_type_and_an_action_named_like_its_step() -> None:
     assert found[0] == "`Fill` is a step, so an action has a different name; rename one."
 
 
-def test_a_chart_in_an_action_says_what_to_write() -> None:
-    text = "INITIAL_STEP S:\nSub(N);\nEND_STEP\nACTION Sub:\nINITIAL_STEP T1:\nEND_STEP\nEND_ACTION\n"
-    found = said(text + END)
-    assert [each[:45] for each in found] == ["An ACTION or METHOD has no chart. Put the cha"]
+def test_a_chart_in_a_method_says_what_to_write() -> None:
+    found = said("METHOD Sub\nINITIAL_STEP T1:\nEND_STEP\nEND_METHOD\n" + END)
+    assert [each[:45] for each in found] == ["A METHOD keeps nothing between two calls, so "]
+
+
+def test_q_of_an_action_that_two_charts_control_says_which_is_meant() -> None:
+    chart = "INITIAL_STEP {0}:\nFill(N);\nEND_STEP\nTRANSITION FROM {0} TO {0} := TRUE; END_TRANSITION\n"
+    one, two = chart.format("S"), f"ACTION Sub:\n{chart.format('T1')}END_ACTION\n"
+    alone, both = (
+        said(f"{each}ACTION Fill: IF Fill.Q THEN n := n + 1; END_IF; END_ACTION\n{END}") for each in (two, one + two)
+    )
+    assert alone == []
+    assert [each[:45] for each in both] == ["Two charts of this POU control `Fill`, each w"]

@@ -14,6 +14,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.il_operands import hidden
 from scanbench.check.body.ladder import Ladder
 from scanbench.check.body.network_code import NetworkCode
+from scanbench.check.body.objects import own
 from scanbench.check.body.places import inside
 from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import place_of
@@ -70,7 +71,7 @@ class ChartCode:
         if found is None:  # its declaration was refused, and reported
             raise Rejected
         member, base, owner = found
-        return place_of(member, base, owner, 0)
+        return own(self._body, place_of(member, base, owner, 0))
 
     def _of(self, name: str, member: str) -> Place:
         place = self._place(name)
@@ -79,7 +80,7 @@ class ChartCode:
         return inside(place, place.type, place.type.members[member])
 
     def _kept(self, use: chart.Use, what: str) -> Place:
-        return self._place(chart.kept(use.name, what))
+        return self._place(chart.kept(self._chart, use.name, what))
 
     def _temporary(self, name: str, type: Type = BOOL) -> Place:
         member = hidden(self._body, name, type, self._made)
@@ -183,7 +184,7 @@ class ChartCode:
 
     def _timer(self, use: chart.Use, qualifier: str, value: Expr) -> Expr:
         """Whether the time of the association is over that began last."""
-        time = chart.kept(use.name, f"{qualifier}.time")
+        time = chart.kept(self._chart, use.name, f"{qualifier}.time")
         for step, each in use.by_qualifier[qualifier]:
             if each.duration is not None:
                 wanted = tree.Assignment(tree.Name(time, each.span), each.duration, self._made)
@@ -220,7 +221,7 @@ class ChartCode:
 
     def _written(self, use: chart.Use) -> None:
         """A Boolean action is its Q, at every evaluation."""
-        name = tree.Name(chart.kept(use.name, "Q"), use.first.span)
+        name = tree.Name(chart.kept(self._chart, use.name, "Q"), use.first.span)
         self._code.run(tree.Assignment(use.first.action, name, use.first.span))
 
     # ---- transitions ------------------------------------------------------------------------------------------

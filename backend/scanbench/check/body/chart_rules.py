@@ -23,10 +23,10 @@ def check_chart(body: Body, written: chart.Chart) -> None:
             "A chart remembers its steps, and this keeps nothing; write it in a PROGRAM or FUNCTION_BLOCK.",
             written.span,
         )
-    if kind not in ("program", "function_block"):
+    if body.scope.find(chart.begun(written)) is None:
         raise body.report.reject(
             "T010",
-            "An ACTION or METHOD has no chart. Put the chart into a FUNCTION_BLOCK, declare an instance of that, and call it here.",
+            "A METHOD keeps nothing between two calls, so it has no chart. Write it in an ACTION, or in a FUNCTION_BLOCK of its own.",
             written.span,
         )
     known = {each.name.name.upper() for each in written.steps}

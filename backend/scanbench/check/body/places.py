@@ -32,7 +32,7 @@ from scanbench.program.types import (
 )
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree
-from scanbench.syntax.chart import kept
+from scanbench.syntax.chart import controls
 from scanbench.syntax.lexer import DATA
 
 VARIABLES = tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference | tree.PartialAccess
@@ -138,8 +138,12 @@ def _of_action(body: Body, node: tree.MemberOf) -> Found | None:
         or body.scope.find(node.owner.name) is not None
     ):
         return None
-    hidden = kept(node.owner.name, "Q")
-    return None if body.scope.find(hidden) is None else body.lookup.variable(body, hidden, node.span)
+    instance = body.scope.instance
+    found = [] if instance is None else controls(node.owner.name, instance.members)
+    if len(found) > 1:
+        message = f"Two charts of this POU control `{node.owner.name}`, each with a Q of its own; name an ACTION of its own in each."
+        raise body.report.reject("T010", message, node.span)
+    return body.lookup.variable(body, found[0], node.span) if found else None
 
 
 def _may_use(body: Body, record: Record, member: Member, span: Span) -> None:
