@@ -32,9 +32,12 @@ class Calling:
     """Path of the instance that calls, '' in a FUNCTION."""
     span: Span
     """The call."""
+    method: str = ""
+    """The METHOD, ACTION or part of a property of that instance, '' in what is none."""
 
     def __str__(self) -> str:
-        return f"{self.instance or self.pou} {self.span.file}:{self.span.line}"
+        where = f"{self.instance}.{self.method}" if self.instance and self.method else self.instance or self.pou
+        return f"{where} {self.span.file}:{self.span.line}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,13 +154,19 @@ def _path(program: Program, image: Image, index: int, pou: str) -> tuple[tuple[C
         site = program.calls[number - 1]
         if not site.passes:
             path = names_of(program).instance(instance, site.pou) if instance else ""
-            found.append(Calling(site.pou, path, _plain(site.span)))
+            found.append(Calling(site.pou, path, _plain(site.span), _method(program, site.pou)))
         if site.pou in seen:  # who called it before is not in the image any more
             break
         seen.add(site.pou)
     else:  # as many as an entry has
         return tuple(reversed(found)), callers(program)[numbers[-2] - 1] != 0
     return tuple(reversed(found)), True
+
+
+def _method(program: Program, name: str) -> str:
+    """What a POU is called in its class; '' of one that is no method."""
+    pou = next((each for each in program.pous if each.name == name), None)
+    return name.rpartition(".")[2] if pou is not None and pou.this is not None else ""
 
 
 def _plain(span: Span) -> Span:

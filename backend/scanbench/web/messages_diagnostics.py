@@ -12,6 +12,7 @@ class Calling(Wire):
 
     pou: str
     instance: str = Field(description="path of the instance that calls; empty in a FUNCTION")
+    method: str = Field(description="the method or action of the instance that calls; empty in its body")
     file: str
     line: int
     column: int

@@ -187,7 +187,9 @@ def _violation(found: Violation) -> diagnosed.Violation:
 
 def _calling(found: Calling) -> diagnosed.Calling:
     span = found.span
-    return diagnosed.Calling(pou=found.pou, instance=found.instance, file=span.file, line=span.line, column=span.column)
+    return diagnosed.Calling(
+        pou=found.pou, instance=found.instance, method=found.method, file=span.file, line=span.line, column=span.column
+    )
 
 
 def event(happened: events.Told) -> wire.ServerMessage:

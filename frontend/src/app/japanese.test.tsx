@@ -80,7 +80,7 @@ function busy(server: FakeServer): void {
           first_scan: 4,
           last_scan: 9,
           text: "範囲外",
-          calls: [{ pou: "Main", instance: "Main", file: "Main.st", line: 7, column: 1 }],
+          calls: [{ pou: "Main", instance: "Main", method: "", file: "Main.st", line: 7, column: 1 }],
           cut: true,
         },
       ],

@@ -3618,6 +3618,11 @@ export interface components {
             instance: string;
             /** Line */
             line: number;
+            /**
+             * Method
+             * @description the method or action of the instance that calls; empty in its body
+             */
+            method: string;
             /** Pou */
             pou: string;
         };

@@ -228,6 +228,8 @@ class Calling(TypedDict):
     pou: str
     instance: str
     """path of the instance that calls; empty in a FUNCTION."""
+    method: str
+    """the method or action of the instance that calls; empty in its body."""
     file: str
     line: int
     column: int

@@ -25,8 +25,8 @@ const LEFT: Violation = {
   first_scan: 3,
   last_scan: 3,
   calls: [
-    { pou: "Main", instance: "Main", file: "Main.st", line: 16, column: 2 },
-    { pou: "Half", instance: "", file: "Half.st", line: 2, column: 9 },
+    { pou: "Main", instance: "Main", method: "", file: "Main.st", line: 16, column: 2 },
+    { pou: "Half", instance: "", method: "", file: "Half.st", line: 2, column: 9 },
   ],
   cut: true,
 };

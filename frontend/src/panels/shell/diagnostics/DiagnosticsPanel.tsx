@@ -81,12 +81,12 @@ function Calls({ violation: { calls, cut } }: { violation: Violation }) {
     <div className="calls faint">
       <span>{t("diagnostics.calledfrom")}</span>
       {cut && <span title={t("diagnostics.cut")}>…</span>}
-      {calls.map(({ pou, instance, file, line, column }, level) => (
+      {calls.map(({ pou, instance, method, file, line, column }, level) => (
         // biome-ignore lint/suspicious/noArrayIndexKey: a path never changes
         <Fragment key={level}>
           {(cut || level > 0) && <span aria-hidden="true">›</span>}
           <button type="button" className="link mono" onClick={() => openFile(file, line, column)}>
-            {`${instance || pou} ${file}:${line}`}
+            {`${instance && method ? `${instance}.${method}` : instance || pou} ${file}:${line}`}
           </button>
         </Fragment>
       ))}
