@@ -70,7 +70,9 @@ class Objects:
 
     def networks(self) -> list[list[Thing]]:
         """The networks that a reader finds in what was made since the last `next_network`."""
-        return list(networks_of([thing_of(each, number) for number, each in enumerate(self._made)], ladder=True))
+        rails = [each for each in self.body.iterchildren("leftPowerRail") if each not in self._made]
+        made = [thing_of(each, number) for number, each in enumerate((*rails, *self._made))]
+        return list(networks_of(made, ladder=True))
 
     def local_id(self) -> str:
         """One that no other object of the body has."""

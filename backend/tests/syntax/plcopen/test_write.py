@@ -22,7 +22,7 @@ GRAPHICAL = [case for case in ALL if DRAWN.search(case.source) and not case.file
 """Those that name no line of their text."""
 SCHEMA = etree.XMLSchema(etree.parse(Path(__file__).parent / "tc6_xml_v201.xsd"))
 """As PLCopen published it for TC6 2.01; this copy is that of the package plcopen 1.0.1."""
-NOT_WRITTEN = 12
+NOT_WRITTEN = 13
 """So many of these cases have something that PLCopen has no form for. Whoever writes one makes the number smaller."""
 
 
@@ -52,6 +52,15 @@ def test_inputs_that_are_given_by_their_place_have_names() -> None:
     )
     files = read_project(write_project("Half", {"Main.st": text}).data).files
     assert "    n := Half(whole := n, plus := 1);\n" in files["Main.st"]
+
+
+def test_a_return_before_a_branch_that_is_read_as_a_rung_of_its_own_is_told_in_any_rung() -> None:
+    rung = "RUNG\n    < [a] -> #s | [a] | k(CU := ~, R := < [a] >, PV := 2) > RETURN\nEND_RUNG\n"
+    head = "PROGRAM Main\nVAR a : BOOL; k : CTU; END_VAR\n"
+    for before in ("", "RUNG\n    [a]\nEND_RUNG\n"):
+        left = write_project("Two", {"Main.st": f"{head}{before}{rung}END_PROGRAM\n"}).left_out
+        assert len(left) == 1
+        assert "a jump or RETURN before other branches" in left[0]
 
 
 @pytest.mark.parametrize("form", Form)
