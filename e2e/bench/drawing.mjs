@@ -146,6 +146,13 @@ async function edits(page, sheet, browser) {
     .getByRole('group', { name: /^Rung 2 / })
     .getByRole('option', { name: /contact/i })
     .first();
+  // The first edit of a file marks it as unsaved in the whole page; what follows does not.
+  const other = sheet.getByRole('group', { name: /^Rung 3 / });
+  await other
+    .getByRole('option', { name: /contact/i })
+    .first()
+    .click();
+  await page.keyboard.press('!');
   await contact.click();
   const key = await costs(page, sheet, browser, [{ key: '!' }], 250);
   await contact.click();

@@ -1,6 +1,7 @@
 /** Coils of one variable in several rungs: the last one counts, which people take for a fault of the machine. */
 
 import type { DrawnPart } from "./sheet";
+import type { Element } from "./tree";
 
 export interface Twice {
   name: string;
@@ -53,4 +54,15 @@ function coilsOf({ drawing, kind }: DrawnPart): readonly Written[] {
   const found = drawing.elements.flatMap(({ element }) => (element.kind === "coil" ? [element] : []));
   coils.set(drawing, found);
   return found;
+}
+
+const isEffect = (element: Element): boolean =>
+  element.kind === "parallel"
+    ? element.branches.some((branch) => branch.some(isEffect))
+    : element.kind !== "contact" && element.kind !== "receive";
+
+/** Whether a rung has contacts and nothing that they could switch: no coil, box, jump or link. */
+export function writesNothing(part: DrawnPart): boolean {
+  if (part.kind !== "rung" || !part.path || part.path.length === 0) return false;
+  return !part.path.some(isEffect);
 }

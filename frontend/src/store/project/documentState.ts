@@ -52,7 +52,8 @@ interface Documents {
   files: readonly FileInfo[];
   open: Readonly<Record<string, Document>>;
   active: string | null;
-  cursor: { line: number; column: number; element?: boolean } | null;
+  /** Of a drawing with the end of its element. */
+  cursor: { line: number; column: number; element?: { line: number; column: number } } | null;
   pous: readonly Pou[];
   problems: readonly Problem[];
   /** The tasks of the edited texts; the last good ones while there are errors. */

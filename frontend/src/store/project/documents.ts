@@ -7,6 +7,7 @@ import { skeleton } from "../../logic/project/skeleton";
 import { t } from "../../text";
 import { rest } from "../../wire/rest";
 import type { BuildResult, FileInfo, FileText } from "../../wire/types";
+import { doWaiting } from "../page/afterFrame";
 import { inTurn } from "../page/inTurn";
 import { openFile, showPanel } from "../page/navigate";
 import { usePlc } from "../plc/plc";
@@ -15,7 +16,8 @@ import { check, scheduleCheck } from "./checking";
 import { type BuildState, type Document, isDirty, nothing, patch, useDocuments, withLineFeeds } from "./documentState";
 import { drop, dropAll, followDrafts, join, joinAgain, leave, refresh, sharedText, unsent } from "./drafts";
 import { entered } from "./entering";
-import { bringDraft, forgetDraft, type KeptDraft, keepPlain, keepUnsent, recallDraft } from "./keptDrafts";
+import { keepPending } from "./keeping";
+import { bringDraft, forgetDraft, type KeptDraft, keepPlain, recallDraft } from "./keptDrafts";
 
 export { type Document, isDirty, useDocuments } from "./documentState";
 
@@ -116,17 +118,6 @@ followDrafts({
   },
 });
 
-/** What the server did not acknowledge is kept in this browser, also when the tab is closed already. */
-function keepPending(path: string): void {
-  const { project, open } = get();
-  const shared = sharedText(path);
-  if (project === null || !shared) return;
-  const pending = unsent(path);
-  const version = open[path]?.version ?? recallDraft(project, path)?.version ?? 0;
-  if (pending) keepUnsent(project, path, { ...pending, text: shared.value, version });
-  else forgetDraft(project, path);
-}
-
 /** Null when there is no such file; that is not a failure if the browser still has a text of it. */
 async function storedFile(project: number, path: string, mayBeGone: boolean): Promise<FileText | null> {
   const known = get().files.some((file) => file.path === path);
@@ -139,6 +130,7 @@ async function storedFile(project: number, path: string, mayBeGone: boolean): Pr
 
 /** Stores an unsaved text in the browser; it is restored when the file is opened again. */
 export function closeDocument(path: string): void {
+  doWaiting();
   if (isDirty(get().open[path])) scheduleCheck();
   leave(path);
   set(({ open, active }) => {
@@ -149,6 +141,7 @@ export function closeDocument(path: string): void {
 
 /** Whether this browser really stored the unsaved text: its storage may be full or switched off. */
 export function isKept(path: string): boolean {
+  doWaiting();
   const { project, open } = get();
   if (sharedText(path) && !unsent(path)) return true;
   return project !== null && recallDraft(project, path)?.text === open[path]?.text;

@@ -5,6 +5,7 @@
 
 import { type Answer, send } from "../../wire/send";
 import type { Draft, DraftEdited } from "../../wire/types";
+import { doWaiting } from "../page/afterFrame";
 import { usePlc } from "../plc/plc";
 import type { Delta, SharedText } from "./sharedText";
 
@@ -157,6 +158,8 @@ export function leave(path: string): void {
 
 /** What was typed is nothing that can be sent: the file is gone, or the page shows a different project. */
 export function drop(path: string): void {
+  // A copy of it that is still to be kept needs it.
+  doWaiting();
   shared.get(path)?.text.close();
   shared.delete(path);
   stopAsking(path);

@@ -2,6 +2,7 @@
 
 import { textChange } from "../../logic/project/textChange";
 import { LspClient, LspRefused } from "../../wire/lsp";
+import { afterFrame } from "../page/afterFrame";
 import { usePrefs } from "../page/prefs";
 import { useDocuments } from "./documents";
 
@@ -91,7 +92,9 @@ function forget(path: string): void {
 }
 
 useDocuments.subscribe((now, before) => {
-  if (now.project !== before.project || now.open !== before.open) follow();
+  if (now.project !== before.project) follow();
+  // Who asks the server something tells it before.
+  else if (now.open !== before.open) afterFrame(follow);
   // Somebody saved, made or deleted a file: the server of the project tells the language server what is saved.
   if (now.files !== before.files && now.project === before.project) client?.notify(CHANGED, { changes: [] });
 });

@@ -38,6 +38,7 @@ export const graphic = {
   "graphic.gap.empty": "Empty branch",
   "graphic.jump": "Jump to {label}",
   "graphic.next": "next element",
+  "graphic.nocoil": "no coil yet: it writes nothing",
   "graphic.of": "Drawing of {path}",
   "graphic.off": "switched off",
   "graphic.point": "breakpoint",

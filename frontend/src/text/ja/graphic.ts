@@ -40,6 +40,7 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.gap.empty": "空の分岐",
   "graphic.jump": "{label} へジャンプ",
   "graphic.next": "次の要素",
+  "graphic.nocoil": "コイルがなく、何も書き込みません",
   "graphic.of": "{path} の図",
   "graphic.off": "無効",
   "graphic.point": "ブレークポイント",

@@ -18,6 +18,7 @@ import { addCrossAction } from "./crossAction";
 import { addDebugActions } from "./debugActions";
 import { addDisturbAction } from "./disturbAction";
 import { offerEditorCommands } from "./editorCommands";
+import { markElement } from "./elementMark";
 import "./fixes";
 import { type Gutter, showBreakpoints } from "./gutter";
 import { lineMenu } from "./gutterMenu";
@@ -69,9 +70,8 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     view.current = code;
     if (ran === null && left.has(path)) code.restoreViewState(left.get(path) ?? null);
     if (ran === null) left.delete(path);
-    // Who comes from the drawing sees the line of its element.
-    const { cursor, active } = useDocuments.getState();
-    if (active === path && cursor?.element) code.revealLineInCenterIfOutsideViewport(cursor.line);
+    // Who comes from the drawing, or moves in it, sees the line of its element.
+    const unmarkElement = markElement(code, path);
     addActions(code, path);
     addTabActions(code);
     addWatchAction(code, path);
@@ -93,7 +93,9 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     const caret = () => {
       const position = code.getPosition();
       // Replacing the text in a hidden tab moves its caret, too.
-      if (position && (code.hasTextFocus() || useDocuments.getState().active === path))
+      // An edit of the drawing moves it, too, whose cursor is where it says.
+      const { active, cursor } = useDocuments.getState();
+      if (position && (code.hasTextFocus() || (active === path && !cursor?.element)))
         useDocuments.setState({ cursor: { line: position.lineNumber, column: position.column }, active: path });
     };
     code.onDidChangeCursorPosition(caret);
@@ -112,6 +114,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     go(code, path, useNavigation.getState().place);
     return () => {
       stop();
+      unmarkElement();
       unmark();
       unmarkReaction();
       unmarkHalt();

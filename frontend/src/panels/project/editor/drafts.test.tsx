@@ -151,6 +151,13 @@ test("what a different page of this browser has not sent is not forgotten when a
   await eventually(() => expect(keptTexts().map(([name]) => name)).toEqual([`scanbench.${key}`]));
 });
 
+test("what was typed is kept after its frame, and at once where the page goes before", async () => {
+  await openShared();
+  edit(PATH, "saved typed");
+  dispatchEvent(new Event("pagehide"));
+  expect(keptTexts()).toHaveLength(1);
+});
+
 test("a file that is closed before its last change is acknowledged is forgotten then", async () => {
   const { drafts } = await openShared();
   edit(PATH, "saved typed");

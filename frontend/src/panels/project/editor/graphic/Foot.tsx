@@ -5,6 +5,7 @@ import { type TextKey, t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import type { Pou } from "../../../../wire/types";
 import { FlowNote } from "./FlowNote";
+import type { Note } from "./Notes";
 import { Tools } from "./Tools";
 import { WrongNote } from "./WrongNote";
 import type { Wrong } from "./wrong";
@@ -21,12 +22,14 @@ interface Props {
   refused: TextKey | null;
   /** What is wrong at the cursor. */
   wrong: Wrong | null;
+  /** What is said of all of the part. */
+  notes: readonly Note[];
   onPress: (key: string) => void;
   onFile: () => void;
 }
 
 /** Below the drawing: its keys as buttons, what is known of the element at the cursor, and what is done with all of it. */
-export function Foot({ path, kind, readOnly, part, place, pou, refused, wrong, onPress, onFile }: Props) {
+export function Foot({ path, kind, readOnly, part, place, pou, refused, wrong, notes, onPress, onFile }: Props) {
   const fit = useFit();
   const tools = useShowsTools();
   return (
@@ -37,9 +40,7 @@ export function Foot({ path, kind, readOnly, part, place, pou, refused, wrong, o
         {wrong && !refused ? (
           <WrongNote path={path} problem={wrong.problem} readOnly={readOnly} />
         ) : (
-          <span className="cut grow" role="status">
-            {refused ? t(refused) : t(readOnly ? "graphic.readonly" : "graphic.keys")}
-          </span>
+          <Said notes={refused ? [{ look: "bad", text: t(refused) }] : notes} readOnly={readOnly} />
         )}
         {!readOnly && (
           <button
@@ -73,5 +74,15 @@ export function Foot({ path, kind, readOnly, part, place, pou, refused, wrong, o
         </button>
       </div>
     </>
+  );
+}
+
+/** What is to be said at the cursor, whole; else which keys there are, as far as there is room. */
+function Said({ notes, readOnly }: { notes: readonly Note[]; readOnly: boolean }) {
+  const said = notes.map(({ text }) => text).join("; ");
+  return (
+    <span className={said === "" ? "cut grow" : `said ${notes[0]?.look}`} role="status">
+      {said || t(readOnly ? "graphic.readonly" : "graphic.keys")}
+    </span>
   );
 }

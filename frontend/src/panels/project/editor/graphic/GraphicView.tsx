@@ -42,14 +42,17 @@ import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
 import { ElementField } from "./ElementField";
 import { Foot } from "./Foot";
-import { cursorAt, emptyAfter, isInSight, pinAt, placeInText } from "./find";
+import { cursorAt, emptyAfter, isInSight, pinAt, placeInText, rangeInText } from "./find";
 import { isUnbuilt } from "./followFlow";
 import { marksOf, togglePart } from "./marks";
+import { notesOf } from "./Notes";
 import { type Operand, operandAt, pressOperand } from "./operand";
 import { PartRow } from "./PartRow";
 import { layOnPaper, PAPER, usePrinted } from "./printed";
 import { Rename } from "./Rename";
+import { sheetOf } from "./sheets";
 import { svgFile } from "./svgFile";
+import { useCaret } from "./useCaret";
 import { useChosen } from "./useChosen";
 import { useDrag } from "./useDrag";
 import { useDrawingMenu } from "./useDrawingMenu";
@@ -89,6 +92,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     selected === null ? null : (byIndex.get(selected) ?? null),
   );
   const room = Math.max(320, (width ?? 0) - BESIDE);
+  /** What is said above a drawing has to be read without scrolling. */
+  const headRoom = Math.max(160, (width ?? 0) - BESIDE);
   const measured = width !== null;
   const drawn = useMemo(() => (measured ? parts.current.of(text, room) : []), [text, room, measured]);
   // Its rung may have been taken back, or deleted by somebody else.
@@ -139,7 +144,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const scaleAt = (part: DrawnPart) => (fit ? scaleOf(part, room) : 1);
   const headAt = (index: number, part: DrawnPart) => {
     const written = drawn[index];
-    return headOf(part, room, (written && actionOf(drawn, written)?.name) ?? null);
+    return headOf(part, headRoom, (written && actionOf(drawn, written)?.name) ?? null);
   };
   const heightAt = (index: number) => {
     const part = shownAt(index);
@@ -153,7 +158,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   });
   // Most edits change no height: then there is nothing to place again.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  const heights = useMemo(() => drawn.map((_, index) => heightAt(index)).join(), [drawn, preview, fit, room]);
+  const heights = useMemo(() => drawn.map((_, index) => heightAt(index)).join(), [drawn, preview, fit, room, headRoom]);
   // biome-ignore lint/correctness/useExhaustiveDependencies: it measures the heights
   useLayoutEffect(() => virtual.measure(), [heights]);
 
@@ -180,7 +185,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   // Keys of the whole page, like F9, mean the element at the cursor.
   function look(): void {
     if (!sheet.current?.contains(document.activeElement)) return;
-    useDocuments.setState({ cursor: { ...placeInText(drawn[cursor.rung], cursor), element: true }, active: path });
+    const [begin, element] = rangeInText(drawn[cursor.rung], cursor);
+    useDocuments.setState({ cursor: { ...begin, element }, active: path });
   }
   // biome-ignore lint/correctness/useExhaustiveDependencies: an edit moves the element in the text
   useEffect(look, [cursor, drawn]);
@@ -190,6 +196,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   useEffect(() => {
     document.getElementById(cursorKey)?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }, [cursorKey]);
+
+  useCaret({ path, drawn, cursor, beside: view === "both", sheet }, (to) => {
+    choosing.clear();
+    go(to);
+  });
 
   function toText(): void {
     showAs(path, "both");
@@ -384,7 +395,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   part={part}
                   number={item.index + 1}
                   head={headAt(item.index, part)}
-                  room={room}
+                  room={headRoom}
                   scale={scaleAt(part)}
                   action={action?.name ?? null}
                   pou={pou}
@@ -429,21 +440,10 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         pou={cursorPou}
         refused={editing.refused}
         wrong={wrongAtCursor}
+        notes={cursorPart ? notesOf(cursorPart, wrongHere, twice[cursor.rung] ?? NONE) : []}
         onPress={onTool}
         onFile={toFile}
       />
     </div>
   );
-}
-
-/** What was drawn of the files that were shown last: who comes back from the text finds it again. */
-const sheets = new Map<string, Sheet>();
-const MOST_SHEETS = 6;
-
-function sheetOf(path: string): Sheet {
-  const known = sheets.get(path) ?? new Sheet();
-  sheets.delete(path);
-  sheets.set(path, known);
-  for (const each of [...sheets.keys()].slice(0, -MOST_SHEETS)) sheets.delete(each);
-  return known;
 }

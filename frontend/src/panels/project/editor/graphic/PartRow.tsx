@@ -11,7 +11,7 @@ import { isAway, useMembers } from "../../../../store/plc/members";
 import { usePlc } from "../../../../store/plc/plc";
 import { useForces } from "../../../../store/watch/forces";
 import { t } from "../../../../text";
-import { Icon } from "../../../../ui/Icon";
+import { Icon, type IconName } from "../../../../ui/Icon";
 import type { Pou, VerifyRow } from "../../../../wire/types";
 import { ApartMark } from "./ApartMark";
 import { ChartPicture } from "./ChartPicture";
@@ -22,6 +22,7 @@ import { showRung } from "./live";
 import { showChart } from "./liveChart";
 import { showDiagram } from "./liveDiagram";
 import type { PartMarks } from "./marks";
+import { type Note, Notes, notesOf } from "./Notes";
 import { RungDrawing } from "./RungDrawing";
 import { useApart } from "./useApart";
 import { type Wrong, wrongText } from "./wrong";
@@ -89,9 +90,18 @@ export const PartRow = memo(function PartRow({
   const differing = apart.marks.filter(({ power }) => !power);
   const headline = part.kind === "chart" ? (pou?.name ?? "") : title;
   const lines = part.kind === "chart" ? [headline] : head.title;
+  const differs = t("graphic.differences", { count: differing.length, scan: verified?.scan ?? 0 });
+  const notes: Note[] = [
+    ...(marks.halt ? [note("halted", marks.next === "" ? marks.halt.text : t("graphic.next"))] : []),
+    ...(differing.length > 0 ? [note("bad", differs, "differs")] : []),
+    ...(readable ? [] : [note("bad", t("graphic.unread"))]),
+    ...notesOf(part, wrong, twice),
+    ...(unbuilt ? [note("faint", t("graphic.unbuilt"))] : said === "" ? [] : [note("faint", said)]),
+    ...(off ? [note("faint", t("graphic.off"))] : []),
+  ];
   return (
     <div
-      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}${chosen?.length === 0 ? " whole" : ""}${target === "above" || target === "below" ? ` drop${target}` : ""}`}
+      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${readable ? "" : " old"}${marks.halt ? ` ${marks.halt.look}` : ""}${chosen?.length === 0 ? " whole" : ""}${target === "above" || target === "below" ? ` drop${target}` : ""}`}
       role="group"
       aria-label={t(`graphic.${part.kind}`, { number, title: headline || label })}
     >
@@ -109,25 +119,7 @@ export const PartRow = memo(function PartRow({
             ))}
           </b>
           {head.beside && <span className="cm cut">{head.comment[0]}</span>}
-          {off && <span className="st faint">{t("graphic.off")}</span>}
-          {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
-          {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
-          {differing.length > 0 && (
-            <span className="st bad">
-              <Icon name="differs" small />
-              {t("graphic.differences", { count: differing.length, scan: verified?.scan ?? 0 })}
-            </span>
-          )}
-          {unbuilt && <span className="st faint">{t("graphic.unbuilt")}</span>}
-          {said !== "" && !unbuilt && <span className="st faint">{said}</span>}
-          {!readable && <span className="st bad">{t("graphic.unread")}</span>}
-          {wrong[0] && (
-            <span className="st bad cut" title={wrong.map(({ problem }) => problem.message).join("\n")}>
-              <Icon name="error" small />
-              {wrong[0].problem.message}
-              {wrong.length > 1 && ` (+${wrong.length - 1})`}
-            </span>
-          )}
+          <Notes notes={notes} />
         </div>
         {!head.beside && (
           <div className="cm below">
@@ -245,7 +237,7 @@ function Picture({
     target,
   };
   return (
-    <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>
+    <div ref={picture} className="netdraw">
       <div style={{ zoom: scale }}>
         {rung && <RungDrawing drawing={rung} {...marked} />}
         {diagram && <DiagramPicture drawing={diagram} {...marked} />}
@@ -282,7 +274,4 @@ function wordsOf(flow: PartFlow | null): string {
   return [which, state === "last" ? t("graphic.flow.last") : ""].filter(Boolean).join(", ");
 }
 
-const sayTwice = ({ name, rungs }: Twice) =>
-  rungs.length === 1
-    ? t("graphic.twice.here", { name })
-    : t("graphic.twice", { name, rungs: rungs.map((index) => index + 1).join(", ") });
+const note = (look: Note["look"], text: string, icon?: IconName): Note => ({ look, text, ...(icon ? { icon } : {}) });

@@ -12,9 +12,9 @@ export function WrongNote({ path, problem, readOnly }: { path: string; problem: 
   const fixes = useFixes(path, problem);
   return (
     <>
-      <span className="row tight cut grow bad" role="status" title={problem.message}>
+      <span className="said bad" role="status">
         <Icon name="error" small />
-        <span className="cut">{problem.message}</span>
+        <span>{problem.message}</span>
       </span>
       {!readOnly &&
         fixes.slice(0, MOST).map(({ title, edit }) => (

@@ -10,7 +10,7 @@ import { emptyInRung } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { pinAtPoint } from "../../../../logic/graphic/ladderPins";
 import type { Found } from "../../../../logic/graphic/networks";
-import { inText } from "../../../../logic/graphic/places";
+import { holds, inText, stopIn } from "../../../../logic/graphic/places";
 import { type DrawnPart, placeOnWire, stepIn, stopsOf } from "../../../../logic/graphic/sheet";
 import { sameElement } from "./cursor";
 import type { Cursor } from "./useEditing";
@@ -62,6 +62,27 @@ function pointIn(part: DrawnPart, { target, clientX, clientY }: MouseEvent): { x
 export function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
   if (!part) return { line: 1, column: 1 };
   return inText(part, stopsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
+}
+
+/** The first and the last place of the text of the element at the cursor; of a part as a whole where it begins. */
+export function rangeInText(part: DrawnPart | undefined, { place }: Cursor) {
+  const span = stopsOf(part).find((each) => sameElement(each.place, place))?.element.span;
+  const begin = placeInText(part, { rung: 0, place });
+  if (!part || !span) return [begin, begin] as const;
+  return [begin, inText(part, span.end)] as const;
+}
+
+/** Where the caret of the text is in a drawing: at an element, or in a part; null where it is in none. After its last character an element is still meant. */
+export function placeOfCaret(
+  drawn: readonly DrawnPart[],
+  { line, column }: { line: number; column: number },
+): Cursor | null {
+  // The rungs of an action come after their chart, which holds their lines, too.
+  const rung = drawn.findLastIndex((part) => holds(part, line));
+  const part = drawn[rung];
+  if (!part) return null;
+  const place = stopIn(part, { line, column }) ?? stopIn(part, { line, column: column - 1 });
+  return { rung, place: place ?? [] };
 }
 
 /** What is not connected or written yet, from a place on. */
