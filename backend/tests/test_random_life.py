@@ -75,7 +75,7 @@ def _of(text: str) -> str:
 
 
 @given(projects())
-@settings(max_examples=amount(1000, 12), deadline=None)
+@settings(max_examples=amount(400, 12), deadline=None)
 def test_both_engines_leave_the_same_bytes(text: str) -> None:
     checked = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL)
     program = checked.program

@@ -11,7 +11,7 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.native import parts
 from scanbench.engines.native.parts import Parts
 from scanbench.program.program import Program
-from tests.amounts import nightly, some
+from tests.amounts import amount, nightly, some
 from tests.caseformat import MODELS, Case, read_cases
 
 CASES = [
@@ -19,7 +19,7 @@ CASES = [
     for path in some(sorted((Path(__file__).parents[1] / "cases").glob("*.case")), 3)
     for case in some(read_cases(path), 12)
 ]
-EDITS = 4
+EDITS = amount(2, 4)
 INTERVAL_NS = 1_000_000
 WORD = re.compile(r"[A-Za-z_]\w*")
 

@@ -68,7 +68,7 @@ def said(flow: Flow, line: int, number: int = 0) -> dict[str, str]:
 
 
 @ENGINES
-@settings(max_examples=amount(300, 10), deadline=None)
+@settings(max_examples=amount(150, 10), deadline=None)
 @given(of(diagram))
 def test_power_and_values_are_those_of_a_straightforward_evaluation(
     make: MakeDebug, made: tuple[str, list[Run], list[dict[str, bool]]]

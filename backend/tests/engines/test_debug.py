@@ -33,7 +33,7 @@ from tests.programs.lists import instruction_lists
 from tests.programs.objects import objects
 from tests.programs.references import open_arrays, references
 
-PROGRAMS = amount(240, 15)
+PROGRAMS = amount(120, 15)
 SCANS = 2
 CASES = Path(__file__).parent.parent / "cases"
 INGREDIENTS = (areas, calls, frames, library, instruction_lists, objects, references, open_arrays)

@@ -33,7 +33,7 @@ from tests.programs.lists import instruction_lists
 from tests.programs.objects import objects
 from tests.programs.references import open_arrays, references
 
-PROGRAMS = amount(360, 30)
+PROGRAMS = amount(200, 30)
 SCANS = 3
 CASES = Path(__file__).parent.parent / "cases"
 

@@ -79,7 +79,7 @@ def made(seed: int) -> Program:
 
 
 SEEDS = pytest.mark.parametrize(
-    "seed", [pytest.param(each, marks=[] if each < 5 else pytest.mark.nightly) for each in range(amount(200, 5))]
+    "seed", [pytest.param(each, marks=[] if each < 5 else pytest.mark.nightly) for each in range(amount(100, 5))]
 )
 
 

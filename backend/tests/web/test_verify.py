@@ -6,7 +6,7 @@ import pytest
 
 from scanbench.client import verdict
 from scanbench.client.shapes.verification import VerificationInfo
-from tests.web.server import Browser, Message, Server
+from tests.web.server import PATIENCE_S, Browser, Message, Server
 
 MODEL = "CJ1M-CPU63"
 PROGRAM = """\
@@ -49,7 +49,9 @@ def rows(server: Server, id: int, **query: object) -> Message:
     return found
 
 
-def ended(browser: Browser, server: Server, instance: int, id: int, state: str = "done") -> Message:
+def ended(
+    browser: Browser, server: Server, instance: int, id: int, state: str = "done", patience_s: float = PATIENCE_S
+) -> Message:
     found: list[Message] = []
 
     def over() -> bool:
@@ -57,7 +59,7 @@ def ended(browser: Browser, server: Server, instance: int, id: int, state: str =
         assert found[0]["state"] in (state, "failed") or found[0]["state"] in ("verifying", "waiting", "starting")
         return bool(found[0]["state"] == state or found[0]["state"] == "failed")
 
-    browser.wait(over)
+    browser.wait(over, patience_s)
     assert found[0]["state"] == state, found[0]
     return found[0]
 

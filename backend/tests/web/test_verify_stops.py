@@ -3,7 +3,7 @@ run is verified afterwards."""
 
 from tests.amounts import amount, nightly
 from tests.verify.test_stopping import SOURCE, stops
-from tests.web.server import Browser, Message, Server
+from tests.web.server import PATIENCE_S, Browser, Message, Server
 from tests.web.test_verify import MODEL, begin, disturb, ended, info, paused, rows
 
 FATAL = 6
@@ -55,7 +55,8 @@ def test_each_is_told_while_the_plc_runs_and_in_the_past(server: Server) -> None
         status = info(server, instance, live)
         assert (status["skipped"], status["differing"]) == (0, len(expected))
         browser.wait(lambda: server.state(instance)["scan"] > expected[-1][0])  # before that its last scan is not over
+        paused(browser)  # with nothing else to do
         past = begin(server, instance, first=first, last=expected[-1][0])["id"]
-        over = ended(browser, server, instance, past)
+        over = ended(browser, server, instance, past, patience_s=10 * PATIENCE_S)
         assert told(server, past) == expected
         assert (over["differing"], over["skipped"], over["not_reached"]) == (len(expected), 0, 0)
