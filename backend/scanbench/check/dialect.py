@@ -82,16 +82,15 @@ class Allowance(Enum):
     OPEN_REFERENCES = auto()
     OPEN_INPUTS = auto()
     SETTING_LISTS = auto()
+    WORD_COUNTERS = auto()
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
     """A rule of IEC 61131-3 that a dialect does not have."""
 
-    allowed: str
-    """What the dialect allows."""
-    strict: str
-    """What the standard says."""
+    allowed: str  # what the dialect allows
+    strict: str  # what the standard says
     instead: str  # how a strict program writes it, by an example
 
 
@@ -316,6 +315,7 @@ RULES: dict[Allowance, Rule] = {
         "a FUNCTION with such inputs computes with the value, and has the type that is passed",
         "a VAR_IN_OUT",
     ),
+    Allowance.WORD_COUNTERS: Rule("PV and CV of CTU, CTD, CTUD as WORD, 0 to 65535", "they are INT", "a CTU_UDINT"),
     Allowance.INSTANCE_COPIES: Rule(
         "an assignment of an instance of a block to one of the same block: all that it has is copied, pointers too",
         "an instance is never assigned",

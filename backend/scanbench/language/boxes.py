@@ -7,7 +7,7 @@ from typing import Literal
 from scanbench.check.body.context import Body
 from scanbench.check.declare.names import qualified
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.standard.library import library
+from scanbench.check.standard.library import library_of
 from scanbench.check.uses import Symbol
 from scanbench.language.describe import describe
 from scanbench.language.reading import Reading
@@ -72,7 +72,7 @@ def _declared(reading: Reading) -> Iterator[Box]:
 
 
 def _library(reading: Reading) -> Iterator[Box]:
-    for file in library():
+    for file in library_of(reading.project.checker.declarations.dialect):
         for pou in file.pous:
             if pou.kind in ("function", "function_block") and not pou.name.startswith("__"):
                 yield _of(reading, pou, pou.name)

@@ -197,7 +197,7 @@ def _counted(formals: tuple[str, ...], count: int) -> list[str]:
 
 def _written(reading: Reading, symbol: Symbol, count: int) -> list[str]:
     """Of a method, or of a FUNCTION that takes several types."""
-    found = reading.declared(symbol) or library_declared(symbol)
+    found = reading.declared(symbol) or library_declared(reading, symbol)
     pou = found[0].node if found else None
     if not isinstance(pou, tree.PouDeclaration):
         return []

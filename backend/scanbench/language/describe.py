@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scanbench.check.declare.names import qualified
-from scanbench.check.standard.library import library
+from scanbench.check.standard.library import library_of
 from scanbench.check.uses import Symbol
 from scanbench.language.comments import Comment, comments
 from scanbench.language.declared import Declared, member_of
@@ -36,12 +36,12 @@ def describe(reading: Reading, symbol: Symbol) -> Description | None:
     if symbol.kind == "function":
         return _standard(symbol.name)
     declared = reading.declared(symbol)
-    made = _of(reading, symbol, declared or library_declared(symbol))
+    made = _of(reading, symbol, declared or library_declared(reading, symbol))
     return made and replace(made, by_author=bool(declared))
 
 
 def _of(reading: Reading, symbol: Symbol, found: Sequence[Declared]) -> Description | None:
-    comment = comment_of(reading, found[0]) if found else _of_parameter(symbol)
+    comment = comment_of(reading, found[0]) if found else _of_parameter(reading, symbol)
     member = member_of(reading.project.checker, symbol)
     if member is not None:
         return Description(variable(member), comment, _notes(member))
@@ -123,19 +123,20 @@ def _standard(name: str) -> Description:
     return Description(f"{name}({', '.join(row.formals)}{more})", text, (says(row),))
 
 
-def library_declared(symbol: Symbol) -> list[Declared]:
-    """A function or block of the standard library."""
+def library_declared(reading: Reading, symbol: Symbol) -> list[Declared]:
+    """A function or block of the standard library, as the dialect of the project has it."""
     if symbol.kind != "pou":
         return []
     name = symbol.name.rpartition(".")[2]
+    files = library_of(reading.project.checker.declarations.dialect)
     return [
-        Declared(symbol, pou.name, pou.span, pou) for file in library() for pou in file.pous if pou.name.upper() == name
+        Declared(symbol, pou.name, pou.span, pou) for file in files for pou in file.pous if pou.name.upper() == name
     ][:1]
 
 
-def _of_parameter(symbol: Symbol) -> str:
+def _of_parameter(reading: Reading, symbol: Symbol) -> str:
     """What the library says of a parameter, beside what the block is."""
-    owner = library_declared(Symbol("pou", "", symbol.owner)) if symbol.kind == "variable" else []
+    owner = library_declared(reading, Symbol("pou", "", symbol.owner)) if symbol.kind == "variable" else []
     return parameter(said_in_library(owner[0].span), symbol.name) if owner else ""
 
 

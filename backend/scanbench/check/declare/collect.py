@@ -14,7 +14,7 @@ from scanbench.check.declare.rewritten import overloaded_in, rewritten, signatur
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.dialect import Allowance, said
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.check.standard.library import library
+from scanbench.check.standard.library import library_of
 from scanbench.problems import Span
 from scanbench.program.types import ELEMENTARY, Record, Section
 from scanbench.syntax import tree
@@ -72,7 +72,7 @@ class Collector:
                 made = self.with_enable(key, pou) if file.name in self.enabling else pou
                 self._register(key, made)
                 self.user.append(made)
-        pous = [pou for file in (*library(), self.system) for pou in file.pous]
+        pous = [pou for file in (*library_of(self.declarations.dialect), self.system) for pou in file.pous]
         hidden = {pou.name.upper() for pou in pous} & self._seen.keys()
         for pou in pous:
             key = pou.name.upper()

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 
+from scanbench.check.dialect import Allowance, Dialect
 from scanbench.program.origin import LIBRARY_FOLDER
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
@@ -19,26 +20,42 @@ COUNTED = {
     "ULINT": (0, (1 << 64) - 1),
 }
 """Types of counters, and their bounds; `counters.st` has them for INT."""
-WORD = re.compile(r"-32768|\w+(?:#\w+)?")
+WORD_COUNTERS = {
+    "INT": "WORD",
+    "-32768": "0",
+    "32767": "16#FFFF",
+    "CV + 1": "UINT_TO_WORD(WORD_TO_UINT(CV) + 1)",
+    "CV - 1": "UINT_TO_WORD(WORD_TO_UINT(CV) - 1)",
+}
+"""What CTU, CTD and CTUD have instead in CODESYS and TwinCAT: https://content.helpme-codesys.com/en/libs/Standard/Current/Counter/CTUD.html,
+https://infosys.beckhoff.com/content/1033/tcplclib_tc2_standard/74398987.html. The text is strict, as in every dialect."""
+WORD = re.compile(r"-32768|CV [+-] 1\b|\w+(?:#\w+)?")
+
+
+def library_of(dialect: Dialect) -> tuple[tree.File, ...]:
+    """What the standard library has in a dialect."""
+    return library(Allowance.WORD_COUNTERS in dialect.allows)
 
 
 @cache
-def library() -> tuple[tree.File, ...]:
-    """The standard library's ST files, parsed."""
-    made = []
-    for path, text in _texts():
-        file, problems = parse_st(Source(path, text))
-        assert not problems, problems
-        made.append(file)
-    return tuple(made)
+def library(words: bool = False) -> tuple[tree.File, ...]:
+    """The standard library's ST files, parsed; CTU, CTD and CTUD count in WORD, or in INT as the standard says."""
+    return tuple(_parsed(path, text) for path, text in _texts(words))
 
 
-def _texts() -> Iterator[tuple[str, str]]:
+@cache
+def _parsed(path: str, text: str) -> tree.File:
+    file, problems = parse_st(Source(path, text))
+    assert not problems, problems
+    return file
+
+
+def _texts(words: bool) -> Iterator[tuple[str, str]]:
     """Path and text of each file; a file written for several types comes once for each, with the same line numbers."""
     for name in FILES:
         path = f"{LIBRARY_FOLDER}{name}.st"
         text = files("scanbench.check").joinpath(f"standard/{name}.st").read_text("utf-8")
-        yield path, text
+        yield path, _replaced(text, WORD_COUNTERS) if words and name == "counters" else text
         if name == "counters":
             for type, (low, high) in COUNTED.items():
                 yield path, _replaced(text, _suffixed(type) | {"INT": type, "-32768": str(low), "32767": str(high)})
