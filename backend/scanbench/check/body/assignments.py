@@ -11,7 +11,7 @@ from scanbench.check.body.context import Body, Found
 from scanbench.check.body.counting import not_counter
 from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
-from scanbench.check.body.places import VARIABLES, raw_place
+from scanbench.check.body.places import VARIABLES, given_reference, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import arriving, keeping, noting
 from scanbench.check.body.subrange_copies import landed
@@ -37,13 +37,16 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
     body.effects.assignable(body, place, member, target.span)
     null = isinstance(value, tree.Name) and value.name.upper() == "NULL"
     if null or isinstance(value, tree.Literal | tree.Call):
-        given = body.expression(value)
-        if not null and is_untyped(given) and not (isinstance(given, Const) and given.value == 0):
+        bound = body.expression(value, type)
+        if not null and is_untyped(bound) and not (isinstance(bound, Const) and bound.value == 0):
             raise body.report.reject(
                 "T002", f"`REF=` binds `{shown(target)}` to a variable; for a value write `{shown(target)} := {shown(value)}`.",
                 value.span,
             )  # fmt: skip
-        return place, coerce(body, given, replace(type, automatic=False), span, f"`{shown(target)}`")
+        return place, coerce(body, bound, replace(type, automatic=False), span, f"`{shown(target)}`")
+    given = given_reference(body, value)
+    if given is not None:
+        return place, coerce(body, given, type, span, f"`{shown(target)}`")
     source, _ = raw_place(body, value) if isinstance(value, VARIABLES) else (None, None)
     if source is not None and isinstance(source.type, Reference) and source.type.automatic:
         reference: Expr = Load(source)

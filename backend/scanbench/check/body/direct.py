@@ -4,7 +4,7 @@ from scanbench.check.body.allowed import may, used
 from scanbench.check.body.any_inputs import any_of, is_any
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.places import VARIABLES, raw_place
+from scanbench.check.body.places import VARIABLES, given_reference, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.variants import is_variant, variant_of
 from scanbench.check.dialect import Allowance
@@ -21,6 +21,9 @@ def as_argument(body: Body, node: tree.Expression, type: Type, what: str) -> Exp
     if isinstance(type, Record) and is_any(type):
         return any_of(body, node, type, what)
     if isinstance(type, Reference) and type.automatic and isinstance(node, VARIABLES):
+        given = given_reference(body, node)
+        if given is not None:
+            return coerce(body, given, type, node.span, what)
         place, _ = raw_place(body, node)
         if isinstance(place.type, Reference) and place.type.automatic and may(body, Allowance.DIRECT_REFERENCES):
             return coerce(body, Load(place), type, node.span, what)  # also one that refers to nothing

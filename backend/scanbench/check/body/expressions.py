@@ -18,7 +18,7 @@ from scanbench.check.body.literals import literal
 from scanbench.check.body.logix_texts import with_texts
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
 from scanbench.check.body.parts import part, part_type
-from scanbench.check.body.places import automatic
+from scanbench.check.body.places import at_target, automatic
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.referring import addressed, refer
 from scanbench.check.body.subrange_checks import as_written, plain, read
@@ -73,7 +73,7 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
             value = calculated(body, node, wanted)
             if value is not node:
                 return body.expression(value, wanted)
-            return form(body, node) or asked(body, node) or body.call(node, wanted)
+            return form(body, node) or asked(body, node) or at_target(body, body.call(node, wanted), wanted, node)
         case tree.TypedName(type_name, name, span):
             typed(body, type_name, span)
             return value_of_type(body, type_name, name, span)
@@ -84,7 +84,7 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
         case tree.IndexOf():
             return _element(body, node)
         case _:
-            return _read(body, node)
+            return _read(body, node, wanted)
 
 
 def _is_free(body: Body, name: str) -> bool:
@@ -100,10 +100,10 @@ def _unbound(body: Body, node: tree.Name, name: str, wanted: Type | None, span: 
     value = enumeration_value(body, name, wanted, span)
     if value is not None:
         return value
-    return _read(body, node)
+    return _read(body, node, wanted)
 
 
-def _read(body: Body, node: tree.Expression) -> Expr:
+def _read(body: Body, node: tree.Expression, wanted: Type | None = None) -> Expr:
     if isinstance(node, tree.Name) and node.name.upper() == "THIS":  # vendors: a pointer to the instance
         here = body.lookup.this(body, "THIS", node.span)
         return RefOf(here, reference_type(here.type, pointer=True))
@@ -115,7 +115,7 @@ def _read(body: Body, node: tree.Expression) -> Expr:
     if value is None and isinstance(node, tree.MemberOf | tree.Name):
         value = body.property_value(node)
     if value is not None:
-        return value
+        return at_target(body, value, wanted, node)
     place, member = body.place(node)
     return _value_at(body, place, member, node)
 

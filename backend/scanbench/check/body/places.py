@@ -28,6 +28,7 @@ from scanbench.program.types import (
     Record,
     Reference,
     Section,
+    Type,
     actual_of,
 )
 from scanbench.program.untyped import settle
@@ -40,22 +41,34 @@ VARIABLES = tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree
 
 
 def place(body: Body, node: tree.Expression) -> Found:
-    """The variable; of a REFERENCE TO, what it refers to. So is a property that gives one."""
-    given = _of_property(body, node)
+    """The variable; of a REFERENCE TO, what it refers to. So are properties and calls that give one."""
+    given = given_reference(body, node)
     if given is not None:
-        return given, None
+        return target_of(body, given, node.span, shown(node)), None
     return automatic(body, *raw_place(body, node), node)
 
 
-def _of_property(body: Body, node: tree.Expression) -> Place | None:
-    """What a property refers to, whose type is REFERENCE TO; None of what is no such property."""
-    properties = body.pous.classes.properties
-    if not isinstance(node, tree.Name | tree.MemberOf) or node.name.upper() not in properties:
+def given_reference(body: Body, node: tree.Expression) -> Expr | None:
+    """The reference that a property or a call of the type REFERENCE TO gives; None of anything else."""
+    if isinstance(node, tree.Call):
+        value: Expr | None = body.call(node)
+    elif isinstance(node, tree.Name | tree.MemberOf) and node.name.upper() in body.pous.classes.properties:
+        value = body.property_value(node)
+    else:
         return None
-    value = body.property_value(node)
-    if value is None or not isinstance(value.type, Reference) or not value.type.automatic:
-        return None
-    return target_of(body, value, node.span, shown(node))
+    return value if value is not None and is_automatic(value) else None
+
+
+def is_automatic(value: Expr) -> bool:
+    """Whether the value is a REFERENCE TO, which means what it refers to."""
+    return isinstance(value.type, Reference) and value.type.automatic
+
+
+def at_target(body: Body, value: Expr, wanted: Type | None, node: tree.Expression) -> Expr:
+    """What a REFERENCE TO that was given refers to, unless a reference is wanted; any other value as it is."""
+    if isinstance(wanted, Reference) or not is_automatic(value):
+        return value
+    return Load(target_of(body, value, node.span, shown(node)))
 
 
 def automatic(body: Body, place: Place, member: Member | None, node: tree.Expression) -> Found:
