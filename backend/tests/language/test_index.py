@@ -42,7 +42,8 @@ def test_every_name_of_a_case_means_something(topic: str) -> None:
         reading = Readings(MODELS[case.model], case.interval_ns).read(files)
         if any(problem.severity is Severity.ERROR for problem in reading.checked.problems):
             continue
-        missing = unresolved(reading)
+        # What an external FUNCTION takes any number of (`args : ...`) has no variable that a name could mean.
+        missing = [each for each in unresolved(reading) if not ("..." in case.source and each.startswith("args "))]
         assert not missing, f"{case.name}: {missing}"
 
 
@@ -68,6 +69,8 @@ def unresolved(reading: Reading) -> list[str]:
         around = reading.around(FILE, start)
         if around and isinstance(around.pou.body, Chart) and (before, upper) == (".", "Q"):
             continue  # of an action: hidden
+        if around and isinstance(around.inner.body, NetworkBody) and tokens.texts[number - 2 : number] == [")", "."]:
+            continue  # an output of a box that is a FUNCTION: it has no variable outside of the box
         if around and is_switched_off(around.inner.body, reading.place(FILE, start)[0]):
             continue
         if "CONFIGURATION" in reading.holding(FILE, start) or (around and isinstance(around.inner.body, tree.IlBody)):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scanbench.language.format import formatted
 from scanbench.language.on_type import Change, typed
 from scanbench.language.reading import Readings
-from tests.amounts import amount, nightly
+from tests.amounts import amount
 from tests.caseformat import MODELS
 from tests.language.reading import FILE
 from tests.programs import generate
@@ -129,12 +129,10 @@ def test_what_ends_a_block_has_the_block_formatted_with_enter() -> None:
     assert typist.type("\n") == "PROGRAM P\n  x:=1;\n  IF a THEN\n    b := 1;\n  END_IF;\n"
 
 
-@nightly
-def test_random_programs_are_stored_in_the_layout_in_which_they_are_typed() -> None:
-    for seed in range(amount(60, 1)):
-        text = formatted(FILE, generate(seed))
-        assert text is not None
-        assert Typist().type(text) == text
+def test_a_random_program_is_stored_in_the_layout_in_which_it_is_typed() -> None:
+    text = formatted(FILE, generate(0))
+    assert text is not None
+    assert Typist().type(text) == text
 
 
 @settings(max_examples=amount(400, 20))
