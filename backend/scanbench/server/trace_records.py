@@ -155,6 +155,7 @@ class TraceRecords:
             if isinstance(error, OSError):
                 raise Refused(f"the record cannot be kept: {error.strerror}") from error
             raise
+        self._open.pop(row.id, None)  # of one that went with its project and had this number
         return _record(row)
 
     async def delete(self, id: int) -> None:

@@ -305,6 +305,7 @@ class Verifications:
         except OSError as error:
             await asyncio.to_thread(self._store.kept.forget, "verification", row.id)
             raise Refused(f"the record cannot be kept: {error.strerror}") from error
+        self._read_last.pop(row.id, None)  # of one that went, also with its project, and had this number
         return _kept(row)
 
     async def delete_record(self, id: int) -> None:

@@ -274,6 +274,21 @@ def test_kept_and_exported(server: Server) -> None:
         assert server.http.get(f"/api/verification-records/{record['id']}").status_code == 404
 
 
+def test_a_record_has_its_own_rows_when_it_gets_the_number_of_one_that_went(server: Server) -> None:
+    instance = server.instance("kept again", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        scan = paused(browser)
+        scans(browser, 3)
+        for last in (scan + 2, scan):
+            id = begin(server, instance, first=scan, last=last)["id"]
+            compared = ended(browser, server, instance, id)["compared"]
+            record = server.http.post(f"/api/verifications/{id}/keep", json={"name": "again"}).json()["id"]
+            page = server.http.get(f"/api/verification-records/{record}/rows").json()["rows"]
+            assert [row["scan"] for row in page] == list(range(scan, last + 1))
+            assert compared == len(page)
+            assert server.http.delete(f"/api/verification-records/{record}").status_code == 204
+
+
 def test_what_cannot_be_verified_says_why(server: Server) -> None:
     instance = server.instance("unverifiable", MODEL, main=PROGRAM)
     path = f"/api/instances/{instance}/verifications"
