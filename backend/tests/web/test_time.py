@@ -267,10 +267,11 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
             assert browser.ask(type="write", path="Main.level", value=str(value))["ok"]
         scan = still(browser)
         assert browser.ask(type="travel", scan=2)["ok"]
-        os.kill(server.state(instance)["pid"], signal.SIGKILL)
-        browser.messages.clear()
-        state = browser.wait_state("past")
-        assert state["scan"] == 2, "it shows what it showed"
+        killed = server.state(instance)["pid"]
+        os.kill(killed, signal.SIGKILL)
+        browser.wait(lambda: server.state(instance)["pid"] not in (None, 0, killed))  # it was in the past before, too
+        browser.wait(lambda: server.state(instance)["state"] == "past")
+        assert server.state(instance)["scan"] == 2, "it shows what it showed"
         assert browser.ask(type="travel", scan=None)["ok"]
         state = browser.wait_state("paused")
         assert (state["scan"], state["past"]) == (scan, None)
