@@ -56,6 +56,9 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
     await mika.editor('Batch.st').build();
     await expect(active).toHaveCount(1);
     await expect(step('Idle')).toContainText('T#');
+    // The timeline may still show a scan before the build: it is told of less often than the drawing.
+    const { state } = await server.get<{ state: { scan: number } }>(`/instances/${server.instance}`);
+    await expect.poll(() => mika.timeline.position()).toBeGreaterThan(state.scan);
     idle = await mika.timeline.position();
   });
 
