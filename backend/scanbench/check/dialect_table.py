@@ -7,7 +7,9 @@ from scanbench.check.dialect import Allowance, Dialect
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.syntax.language_file import BYTES_SINCE, DialectName, defined_in, language_of
 
-_LOGIX = frozenset({Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.DINT_RESULTS, Allowance.TEXT_STRUCTURES})
+_LOGIX = frozenset(
+    {Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.DINT_RESULTS, Allowance.TEXT_STRUCTURES, Allowance.REAL_MOD}
+)
 _SIEMENS = frozenset(
     {
         *(Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.TIME_NUMBERS, Allowance.CHAR_NUMBERS),

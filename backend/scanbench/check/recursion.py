@@ -13,7 +13,8 @@ from scanbench.check.body import fold
 from scanbench.check.body.arguments import together
 from scanbench.check.context import Report
 from scanbench.check.declare.scopes import Pous
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
 from scanbench.program.program import (

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import Checked, check_sources
-from scanbench.check.dialect import RULES, Allowance
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import RULES
 from scanbench.check.dialect_table import DIALECTS
 from scanbench.check.incremental import Checks
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
@@ -93,6 +94,9 @@ USES = [
     (Allowance.LITERAL_VALUES, "numbers := [i, 2];", "numbers[1] := 1;"),
     (Allowance.ADDRESS_OPERATOR, "ok := &i <> NULL;", "REF(i)"),
     (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
+    (Allowance.REAL_MOD, "r := r MOD 2;", "TRUNC(r / s)"),
+    (Allowance.LITERAL_SIZES, "w := b XOR 16#1FF;", "`WORD#511`"),
+    (Allowance.LITERAL_SIZES, "ok := w <> 16#1_0000;", "`DWORD#65536`"),
     (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
     (Allowance.ROUNDING, "d := 2.5;", "`2`"),
     (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
@@ -321,6 +325,20 @@ def test_a_constant_is_no_array_for_an_input_that_is_written(body: str) -> None:
     refused = [(each.code, each.span.line) for each in found if each.severity is Severity.ERROR]
     assert refused == [("T003", 16)]
     assert check_sources(with_dialect({"a.st": WRITES % "x := Reads(K);"}, "codesys"), MODEL).program is not None
+
+
+def test_a_number_beside_a_smaller_signed_integer_needs_a_type() -> None:
+    found = [each for each in checked("d := i OR 16#1_0000;", "codesys").problems if each.severity is Severity.ERROR]
+    assert [(each.code, each.span.line) for each in found] == [("T002", LINE)]
+    assert "`DINT#65536`" in found[0].message
+    assert checked("d := i OR DINT#65536;", "codesys").program is not None
+    assert checked("d := i OR 16#1_0000;", "rockwell").program is not None
+
+
+def test_what_zeros_are_put_before_is_not_guessed() -> None:
+    text = "PROGRAM Main\nVAR l : LINT; END_VAR\nl := l AND -2;\nEND_PROGRAM\n"
+    found = check_sources(with_dialect({"a.st": text}, "rockwell"), MODEL).problems
+    assert [(each.code, each.span.line) for each in found if each.severity is Severity.ERROR] == [("T002", 3)]
 
 
 def test_an_array_of_any_size_that_is_constant_is_never_written() -> None:

@@ -1,7 +1,8 @@
 """What only the dialect of the project allows: each use is told with W006, and says how a strict program writes the same."""
 
 from scanbench.check.body.context import Body
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 
 

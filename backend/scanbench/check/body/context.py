@@ -126,6 +126,8 @@ class Body:
     """Whether what is called is an action that a step of a chart names."""
     wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)
     """By identity, values that were cut to their type, and what they were cut from; see `wide.py`."""
+    bitwise: dict[int, tuple[Expr, int]] = field(default_factory=dict)
+    """By identity, results of AND, OR, XOR and NOT in 32 or 64 bits, and the bytes of their operands; see `bitwise.py`."""
     truths: dict[int, Truth] = field(default_factory=dict)
     """By offset in the frame, what the current results of IL were before they wrapped; see `true_values.py`."""
 

@@ -6,6 +6,7 @@ from scanbench.check.body import fold
 from scanbench.check.body.absolute import of_data
 from scanbench.check.body.aggregates import aggregate
 from scanbench.check.body.allowed import may
+from scanbench.check.body.bitwise import inverted, literal_inverted
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import byte_of, character_index, character_of, element
@@ -13,7 +14,7 @@ from scanbench.check.body.enumerations import enumeration_value, is_value_name, 
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.instructions import calculated, with_moments
-from scanbench.check.body.lenient import BITS, inverted, literal_inverted, negative
+from scanbench.check.body.lenient import BITS, negative
 from scanbench.check.body.literals import literal
 from scanbench.check.body.logix_texts import with_texts
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate

@@ -28,11 +28,10 @@ from scanbench.program.types import (
     Type,
     base_of,
 )
-from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, wrap
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
 
 INTEGRAL = (*WHOLE, Kind.BITS)
 CALCULATIONS = ("add", "sub", "mul", "div", "mod")
-LOGIC = ("and", "or", "xor")
 MILLISECONDS = (DINT, ELEMENTARY["UDINT"], ELEMENTARY["DWORD"])
 """Types that TIA has TIME as, of so many milliseconds."""
 MILLISECOND_NS = 1_000_000
@@ -119,62 +118,6 @@ def _same_sign(body: Body, op: str, left: Expr, right: Expr, span: Span) -> None
             f"not documented. Convert one of them by its name, e.g. {bits.type}_TO_{other.type}.",
             span,
         )
-
-
-def logical(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr | None:
-    """AND, OR, XOR of integers, bit by bit, where the dialect has that; None where it is a matter of the strict language."""
-    a, b = left.type, right.type
-    if not isinstance(a, Elementary) or not isinstance(b, Elementary):
-        return None
-    typed = [each for each in (a, b) if each not in (ANY_INT, ANY_REAL)]
-    if not any(each.kind in WHOLE for each in typed) or any(each.kind not in INTEGRAL for each in typed):
-        return None
-    if not may(body, Allowance.INTEGER_BITS):
-        return None
-    result = _joined(body, typed, left, right, span)
-    if result is None:
-        return None
-    whole = next(each for each in typed if each.kind in WHOLE)
-    name = bits_of(whole).name
-    used(
-        body, Allowance.INTEGER_BITS, span, f"`{OPERATORS[op]}` works on the bits of {whole}",
-        f"`{whole}_TO_{name}(...)`, and back with `{name}_TO_{whole}(...)`",
-    )  # fmt: skip
-    bits = bits_of(result)
-    made = fold.binary(op, bits, fold.convert(bits, left), fold.convert(bits, right))
-    return fold.convert(result, made)
-
-
-def _joined(body: Body, typed: list[Elementary], left: Expr, right: Expr, span: Span) -> Elementary | None:
-    """The type of the result: of two integers what both widen to, with a bit string the larger bit string."""
-    for each in (left, right):
-        if each.type == ANY_REAL:
-            return None
-        if each.type == ANY_INT and isinstance(each, Const):
-            number, size = int(each.value), typed[0].size
-            fits = -(1 << 8 * size - 1) <= number < 1 << 8 * size
-            return typed[0] if fits else None
-    first, second = typed
-    if Kind.BITS not in (first.kind, second.kind):
-        signed, other = (first, second) if first.kind is Kind.INT else (second, first)
-        clear = (
-            first.kind is second.kind or signed.size > other.size
-        )  # else the sign decides, in a way that nobody documents
-        return common(first, second) if clear else None
-    whole, bits = (first, second) if first.kind in WHOLE else (second, first)
-    return bits if whole.size <= bits.size else bits_of(whole)
-
-
-def inverted(body: Body, expr: Expr, span: Span) -> Expr | None:
-    """NOT of an integer, bit by bit, where the dialect has that."""
-    type = expr.type
-    if not isinstance(type, Elementary) or type.kind not in WHOLE or is_untyped(expr):
-        return None
-    bits = bits_of(type)
-    instead = f"`{bits}_TO_{type}(NOT {type}_TO_{bits}(...))`"
-    if not allowed(body, Allowance.INTEGER_BITS, span, f"`NOT` works on the bits of {type}", instead):
-        return None
-    return fold.convert(type, fold.unary("not", bits, fold.convert(bits, expr)))
 
 
 def as_calculated(body: Body, left: Expr, right: Expr) -> tuple[Expr, Expr]:
@@ -276,46 +219,6 @@ def literal_shifted(body: Body, name: str, expr: Expr, count: Expr, span: Span) 
     return Const(ANY_INT, next(value for value in values if value is not None))
 
 
-def literal_inverted(body: Body, expr: Expr, wanted: Type | None, span: Span) -> Const | None:
-    """NOT of a number without a type: with 250 and -6 for `NOT 5`, only a type of as many bits tells what it is."""
-    if (typed := literal_of(body, expr, wanted)) is not None:
-        used(body, Allowance.INTEGER_SHIFTS, span, f"`NOT` works on the bits of {typed.type}")
-        assert isinstance(typed.type, Elementary)
-        assert isinstance(typed.value, int)
-        return Const(typed.type, wrap(~typed.value, typed.type))
-    if not isinstance(expr, Const) or expr.type != ANY_INT or not may(body, Allowance.INTEGER_BITS):
-        return None
-    number, made = int(expr.value), None
-    smallest = next((size for size in BITS if number < 1 << 8 * size), 0)
-    if number < 0:
-        made = Const(ANY_INT, ~number)
-    elif isinstance(wanted, Elementary) and wanted.kind in WHOLE and wanted.size == smallest:
-        made = Const(base_of(wanted), wrap(~number, base_of(wanted)))
-    if made is None:
-        raise body.report.reject(
-            "T002", f"NOT of the number {number}: {body.dialect.title} takes it as the smallest type that holds it; whether that has a "
-            f"sign is not documented. Write its type, e.g. `INT#{number}`.", span,
-        )  # fmt: skip
-    instead = f"`WORD_TO_INT(NOT WORD#{number})`"
-    used(body, Allowance.INTEGER_BITS, span, f"`NOT` works on the bits of the number {number}", instead)
-    return made
-
-
-def literal_of(body: Body, expr: Expr, wanted: Type | None) -> Const | None:
-    """A number without a type as one of the integer that is wanted, as TIA takes it; None of others, and in other dialects."""
-    if not may(body, Allowance.INTEGER_SHIFTS) or may(body, Allowance.INTEGER_BITS) or not isinstance(expr, Const):
-        return None
-    if (
-        expr.type != ANY_INT
-        or not isinstance(wanted, Elementary)
-        or wanted.kind not in WHOLE
-        or not isinstance(expr.value, int)
-    ):
-        return None
-    low, high = bounds(base_of(wanted))
-    return Const(base_of(wanted), expr.value) if low <= expr.value <= high else None
-
-
 def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:
     """A bit string as an index or a count, where the dialect has that."""
     type = expr.type
@@ -354,6 +257,8 @@ def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr |
     allowance = _allowance(base_of(source), type)
     if allowance is None or is_untyped(expr):
         return None
+    if allowance is Allowance.NARROWING and id(expr) in body.bitwise and body.bitwise[id(expr)][1] <= type.size:
+        return fold.convert(type, expr)  # as many bits as its operands have
     name = base_of(source).name
     instead = f"`{name}_TO_{type}(...)`"
     if allowance is Allowance.BITS_AS_REALS:

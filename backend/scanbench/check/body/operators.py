@@ -1,14 +1,16 @@
 """Operators -> typed operations: both operands brought to one type, every conversion written out."""
 
 from scanbench.check.body import fold, wide
-from scanbench.check.body.allowed import may
+from scanbench.check.body.allowed import may, used
+from scanbench.check.body.bitwise import LOGIC, logical, smallest
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.joining_hint import joining_hint
-from scanbench.check.body.lenient import LOGIC, as_calculated, as_duration, bit_sum, counted, index, logical
+from scanbench.check.body.lenient import BITS, as_calculated, as_duration, bit_sum, counted, index
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.places import plain_reference
 from scanbench.check.body.references import compare_references, pointer_arithmetic
+from scanbench.check.body.remainder import remainder
 from scanbench.check.body.subrange_checks import plain
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
@@ -61,6 +63,8 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
     if op not in LOGIC:
         left, right = as_calculated(body, left, right)
     left, right, type = _same(body, op, left, right, span, wanted)
+    if op == "mod" and type.kind is Kind.REAL and may(body, Allowance.REAL_MOD):
+        return remainder(body, type, left, right, span)
     if op in LOGIC:
         fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
         need = "BOOL or bit strings"
@@ -159,6 +163,12 @@ def _beside(body: Body, literal: Expr, type: Elementary, span: Span, wanted: Typ
         low, high = bounds(type)
         if not low <= int(literal.value) <= high:
             return settle(literal)
+    if literal.type == ANY_INT and type.kind is Kind.BITS and int(literal.value) > bounds(type)[1]:
+        if may(body, Allowance.LITERAL_SIZES):
+            bits = ELEMENTARY[BITS[smallest(int(literal.value))]]
+            what = f"{literal.value!r} does not fit {type}, and is {bits}"
+            used(body, Allowance.LITERAL_SIZES, span, what, f"`{bits}#{literal.value!r}`")
+            return Const(bits, literal.value)
     if literal.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT):
         return literal_as(body, literal, real_beside([type], wanted), span, "The other operand")
     return literal_as(body, literal, type, span, "The other operand")

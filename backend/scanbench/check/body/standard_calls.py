@@ -5,17 +5,10 @@ from functools import partial
 
 from scanbench.check.body import conversions, fold, standard_fold, wide
 from scanbench.check.body.allowed import allowed, may, used
+from scanbench.check.body.bitwise import inverted, literal_inverted, literal_of
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.lenient import (
-    bits_of,
-    inverted,
-    literal_inverted,
-    literal_of,
-    literal_shifted,
-    shifted,
-    shifted_with_sign,
-)
+from scanbench.check.body.lenient import bits_of, literal_shifted, shifted, shifted_with_sign
 from scanbench.check.body.named_texts import name_of
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered

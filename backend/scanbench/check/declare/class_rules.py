@@ -6,7 +6,8 @@ from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Classes, Method
 from scanbench.check.declare.creations import FB_INIT, LIFE_CYCLE
 from scanbench.check.declare.life_rules import check_life_method
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Member, Record, Section, Type
 

@@ -12,7 +12,8 @@ from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
 from scanbench.check.declare.rewritten import overloaded_in, rewritten, signature_of
 from scanbench.check.declare.scopes import Pous
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.check.standard.library import library_of
 from scanbench.problems import Span

@@ -9,7 +9,8 @@ from scanbench.check.declare.kept import is_kept
 from scanbench.check.declare.later import ToDeclare
 from scanbench.check.declare.members import declare, default_of
 from scanbench.check.declare.names import qualified
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
 from scanbench.syntax import tree
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field, replace
 
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.names import Space, qualified
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.syntax import tree
 

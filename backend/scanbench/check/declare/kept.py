@@ -9,7 +9,8 @@ from dataclasses import replace
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import Space, qualified
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.program.program import Base
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree

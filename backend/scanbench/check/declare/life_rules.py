@@ -3,7 +3,8 @@
 from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Method
 from scanbench.check.declare.creations import FB_EXIT, FB_INIT, inputs_of, is_called
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.syntax import tree
 

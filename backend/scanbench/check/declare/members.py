@@ -12,7 +12,8 @@ from scanbench.check.declare.initial_values import initial_image, with_reference
 from scanbench.check.declare.policies import project_policy
 from scanbench.check.declare.start_references import start_with
 from scanbench.check.declare.vendor_types import BIT, place_bit
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.program.types import (
     ELEMENTARY,
     SLOT_BYTES,

@@ -5,7 +5,8 @@ same way (`check.body.elements.array_bounds`).
 """
 
 from scanbench.check.declare.declarations import Declarations
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.program.types import LINT, SLOT_BYTES, Kind, Member, OpenArray, Record, Reference, Section, Type
 

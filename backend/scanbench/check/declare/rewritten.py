@@ -5,7 +5,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from scanbench.check.context import Report
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.syntax import tree
 

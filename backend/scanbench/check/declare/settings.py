@@ -9,7 +9,8 @@ from scanbench.check.declare.addresses import offset_of
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
 from scanbench.check.declare.members import own_memory
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Program
 from scanbench.program.tasks import AccessPath

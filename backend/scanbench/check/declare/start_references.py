@@ -5,7 +5,8 @@ from contextlib import suppress
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Afresh, Declarations, Given, Start, StartExpression, StartReference
-from scanbench.check.dialect import Allowance, said
+from scanbench.check.dialect import Allowance
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.program.program import Base, Expr, Place, RefOf
 from scanbench.program.shown import shown

@@ -1,7 +1,8 @@
 """Base types of vendors, as they are on a controller of 64 bits, and bits."""
 
 from scanbench.check.context import Report
-from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_rules import said
 from scanbench.problems import Span
 from scanbench.program.types import (
     BOOL,
