@@ -265,7 +265,8 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
         browser.watch("Main.n", "Main.level")
         for value in range(1, 6):
             assert browser.ask(type="write", path="Main.level", value=str(value))["ok"]
-        browser.wait(lambda: (browser.number("Main.n") or 0) > 3)  # so that scan 2 is past, however fast the writes were
+        # so that scan 2 is past, however fast the writes were
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 3)
         scan = still(browser)
         assert browser.ask(type="travel", scan=2)["ok"]
         killed = server.state(instance)["pid"]
