@@ -1,4 +1,4 @@
-"""The rule of IEC 61131-3 behind each allowance of a dialect, and the warning that names it."""
+"""The rules of IEC 61131-3 that the dialects do not have, and the warning that names them."""
 
 from scanbench.check.dialect import Allowance, Dialect, Rule
 
