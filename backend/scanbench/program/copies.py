@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from scanbench.program.types import BOOL, SLOT_BYTES, ArrayType, Record, Type, actual_of, has_copies
+from scanbench.program.types import BOOL, SLOT_BYTES, ArrayType, Record, Type, actual_of
 
 BYTE_OFFSET, BIT_SHIFT, BITS = 0xFFFF_FFFF, 32, 7
 DEEPEST = 256
@@ -103,3 +103,12 @@ def _of_type(type: Type, offset: int) -> Iterator[Copy]:
     elif isinstance(type, ArrayType):
         for number in range(type.count):
             yield from _of_type(type.element, offset + number * type.element.size)
+
+
+def has_copies(type: Type) -> bool:
+    """Whether an instance of a block is in it that takes an in-out by value."""
+    if isinstance(type, ArrayType):
+        return has_copies(type.element)
+    if isinstance(type, Record):
+        return any(each.copied or (not each.bound and has_copies(each.type)) for each in type.members.values())
+    return False

@@ -16,6 +16,9 @@ SLOT_BYTES = 8
 """An in-out slot is a u64 reference: bits 0-31 byte offset in the image, bits 32-34 bit number (BOOL in an area);
 0 means bound to nothing, as nothing lives at offset 0."""
 
+LARGEST_STEP = 8
+"""Bytes: every member is at a multiple of its size, or of these."""
+
 MAX_STRING = 32767
 
 
@@ -50,7 +53,7 @@ class Elementary:
 
     @property
     def align(self) -> int:
-        return min(self.size, 8)
+        return min(self.size, LARGEST_STEP)
 
     @property
     def bits(self) -> int:
@@ -294,6 +297,8 @@ class Record:
     """What a block or class extends."""
     interfaces: tuple["Record", ...] = ()
     """What it implements; of an interface, those that it extends."""
+    pack: int = LARGEST_STEP
+    """Bytes of the largest step at which its members are placed; 1: without gaps."""
     open: bool = False
     """What it extends was refused, so nobody knows all that it has: what it seems to lack is no mistake of its own."""
 
@@ -309,9 +314,9 @@ class Record:
         if member.storage == 0:
             return
         if self.kind is Kind.UNION:
-            self.place_at(member, 0, member.type.align)
+            self.place_at(member, 0, min(member.type.align, self.pack))
             return
-        align = SLOT_BYTES if member.bound else member.type.align
+        align = min(SLOT_BYTES if member.bound else member.type.align, self.pack)
         member.offset = -(-self.size // align) * align
         self.size = member.offset + member.storage
         self.align = max(self.align, align)
@@ -425,15 +430,6 @@ def has_instance(type: Type) -> bool:
         return has_instance(type.element)
     if isinstance(type, Record):
         return type.kind is Kind.BLOCK or any(has_instance(member.type) for member in type.members.values())
-    return False
-
-
-def has_copies(type: Type) -> bool:
-    """Whether an instance of a block is in it that takes an in-out by value."""
-    if isinstance(type, ArrayType):
-        return has_copies(type.element)
-    if isinstance(type, Record):
-        return any(each.copied or (not each.bound and has_copies(each.type)) for each in type.members.values())
     return False
 
 

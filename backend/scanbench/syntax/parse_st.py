@@ -17,7 +17,7 @@ REFUSED = {
     "DATA_BLOCK": "write VAR_GLOBAL",
     "VAR_ACCESS": "write it inside of the CONFIGURATION",
 }
-ATTRIBUTES = re.compile(r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string)'", re.IGNORECASE)
+ATTRIBUTES = re.compile(r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string|pack_mode)'(?:\s*:=\s*'([^']*)')?", re.IGNORECASE)
 
 
 def parse_st(source: Source) -> tuple[tree.File, list[Problem]]:
@@ -199,4 +199,5 @@ def _attributes(c: Cursor, token: int) -> tuple[str, ...]:
     first = c.end_of(token - 1) if token else 0
     last = c.starts[token]
     found = (ATTRIBUTES.match(text) for at, text in c.pragmas if first <= at < last)
-    return tuple(each.group(1).lower() for each in found if each)
+    said = ((each.group(1).lower(), each.group(2) or "") for each in found if each)
+    return tuple(f"{name}={value}" if name == "pack_mode" else name for name, value in said)

@@ -286,7 +286,7 @@ class TypeDeclaration:
     using: tuple[str, ...] = ()
     access: str = "PUBLIC"  # or INTERNAL, of a namespace
     attributes: tuple[str, ...] = ()
-    """Those of a vendor that mean something of an enumeration: `qualified_only` (values have its name in front), `to_string`."""
+    """Those of a vendor that mean something: of an enumeration `qualified_only` (values have its name in front) and `to_string`, of a structure `pack_mode=1`."""
     policy: str = ""  # as of a variable
 
 

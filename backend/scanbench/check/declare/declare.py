@@ -11,11 +11,13 @@ from scanbench.check.declare.names import qualified
 from scanbench.check.declare.policies import project_policy
 from scanbench.check.declare.specs import enumeration, structure, subrange, type_of
 from scanbench.plcmodel.model import Model
-from scanbench.program.types import SLOT_BYTES, Kind, Reference, Type, initial_of
+from scanbench.program.types import LARGEST_STEP, SLOT_BYTES, Kind, Reference, Type, initial_of
 from scanbench.syntax import tree
 
-NAMED_TEXTS = ("codesys", "twincat")
-"""Dialects in which the attribute `to_string` means something."""
+WITH_ATTRIBUTES = ("codesys", "twincat")
+"""Dialects in which the attributes `to_string` and `pack_mode` mean something."""
+PACK_MODES = {"0": 1, "1": 1, "2": 2, "4": 4, "8": 8}
+"""Of the attribute: the largest step at which members are placed, in bytes: https://infosys.beckhoff.com/content/1033/cx7000/10697920651.html."""
 
 
 def declarations_of(report: Report, model: Model, areas: dict[str, int], constant_of: ConstantOf) -> Declarations:
@@ -33,10 +35,10 @@ def _named_type(declared: Declarations, declaration: tree.TypeDeclaration) -> Ty
     name = qualified(declaration.namespace, declaration.name)
     match declaration.type:
         case tree.StructSpec() as spec:
-            made: Type = structure(declared, name, spec)
+            made: Type = structure(declared, name, spec, _pack(declared, declaration))
         case tree.EnumSpec() as spec:
             made = enumeration(declared, spec, name)
-            if "to_string" in declaration.attributes and declared.dialect.name in NAMED_TEXTS:
+            if "to_string" in declaration.attributes and declared.dialect.name in WITH_ATTRIBUTES:
                 made = replace(made, named=True)
         case tree.SubrangeSpec() as spec:
             made = subrange(declared, spec, name)
@@ -50,6 +52,19 @@ def _named_type(declared: Declarations, declaration: tree.TypeDeclaration) -> Ty
         if default != initial_of(made):
             declared.defaults[name.upper()] = default
     return made
+
+
+def _pack(declared: Declarations, declaration: tree.TypeDeclaration) -> int:
+    """The largest step at which the members of a structure are placed."""
+    said = next((each for each in declaration.attributes if each.startswith("pack_mode=")), "")
+    if not said or declared.dialect.name not in WITH_ATTRIBUTES:
+        return LARGEST_STEP
+    mode = said.partition("=")[2]
+    if mode not in PACK_MODES:
+        raise declared.report.reject(
+            "S004", f"`pack_mode` of `{declaration.name}` is '0', '1', '2', '4' or '8', not '{mode}'.", declaration.span
+        )
+    return PACK_MODES[mode]
 
 
 def _block_type(declared: Declarations, declaration: tree.PouDeclaration) -> Type:

@@ -11,6 +11,7 @@ from scanbench.problems import Span
 from scanbench.program.origin import in_library
 from scanbench.program.types import (
     ELEMENTARY,
+    LARGEST_STEP,
     MAX_STRING,
     SLOT_BYTES,
     ArrayType,
@@ -171,9 +172,10 @@ def reference(declared: Declarations, spec: tree.ReferenceSpec) -> Reference | R
     return Reference(f"{word} {target.name}", Kind.REF, SLOT_BYTES, target, spec.pointer, spec.automatic)
 
 
-def structure(declared: Declarations, name: str, spec: tree.StructSpec) -> Record:
-    """A STRUCT or UNION with its members, those of its base first."""
+def structure(declared: Declarations, name: str, spec: tree.StructSpec, pack: int = LARGEST_STEP) -> Record:
+    """A STRUCT or UNION with its members, those of its base first. `pack`: the largest step at which they are placed, in bytes."""
     record = declared.record(name, Kind.UNION if spec.union else Kind.STRUCT)
+    record.pack = pack
     record.overlaps = spec.union or spec.overlap
     if spec.extends is not None:
         base = declared.named(spec.extends.name, spec.extends.span)
