@@ -85,6 +85,7 @@ class Allowance(Enum):
     WORD_COUNTERS = auto()
     REAL_MOD = auto()
     LITERAL_SIZES = auto()
+    SHORT_TIMES = auto()
 
 
 @dataclass(frozen=True, slots=True)

@@ -224,6 +224,11 @@ RULES: dict[Allowance, Rule] = {
         "a VAR_IN_OUT",
     ),
     Allowance.WORD_COUNTERS: Rule("PV and CV of CTU, CTD, CTUD as WORD, 0 to 65535", "they are INT", "a CTU_UDINT"),
+    Allowance.SHORT_TIMES: Rule(
+        "TIME, TOD, DATE and DT as numbers of 32 bits without a sign, of milliseconds or seconds, which begin again at 0",
+        "they have a sign, and go as far as 64 bits",
+        "LTIME",
+    ),
     Allowance.INSTANCE_COPIES: Rule(
         "an assignment of an instance of a block to one of the same block: all that it has is copied, pointers too",
         "an instance is never assigned",

@@ -50,6 +50,8 @@ class Elementary:
     name: str
     kind: Kind
     size: int
+    unit: int = field(default=0, compare=False, kw_only=True, repr=False)
+    """Of a time that has 32 bits without a sign in the dialect: ns that it counts. The same type as without it."""
 
     @property
     def align(self) -> int:

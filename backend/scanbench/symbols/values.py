@@ -25,7 +25,8 @@ from scanbench.syntax import literals
 TRUE, FALSE = ("TRUE", "1", "ON", "BOOL#TRUE", "BOOL#1"), ("FALSE", "0", "OFF", "BOOL#FALSE", "BOOL#0")
 WORDS = ((86_400_000_000_000, "d"), (3_600_000_000_000, "h"), (60_000_000_000, "m"), (1_000_000_000, "s"),
          (1_000_000, "ms"), (1_000, "us"), (1, "ns"))  # fmt: skip
-DAY_NS = literals.UNITS_NS["d"]
+UNITS_NS = literals.UNITS_NS
+DAY_NS = UNITS_NS["d"]
 DATES = {
     "DATE": ("D", literals.date, "D#2026-11-21"),
     "TIME_OF_DAY": ("TOD", literals.time_of_day, "TOD#12:30:15.5"),
@@ -62,6 +63,12 @@ def parse_value(type: Type, text: str) -> bytes:
     low, high = bounds(type)
     if not low <= number <= high:
         raise ValueError(f"{number} is outside of {type} ({low} to {high})")
+    if type.unit and (number % type.unit or not 0 <= number // type.unit < 1 << 32):
+        last = _format_integer(type, ((1 << 32) - 1) * type.unit)
+        step = "1 ms" if type.unit == UNITS_NS["ms"] else "1 s"
+        raise ValueError(
+            f"{text} is not {type} here, which has steps of {step} from {_format_integer(type, 0)} to {last}"
+        )
     return number.to_bytes(type.size, "little", signed=type.signed)
 
 

@@ -17,7 +17,9 @@ REFUSED = {
     "DATA_BLOCK": "write VAR_GLOBAL",
     "VAR_ACCESS": "write it inside of the CONFIGURATION",
 }
-ATTRIBUTES = re.compile(r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string|pack_mode)'(?:\s*:=\s*'([^']*)')?", re.IGNORECASE)
+ATTRIBUTES = re.compile(
+    r"\{\s*attribute\s*(?::=)?\s*'(qualified_only|to_string|pack_mode)'(?:\s*:=\s*'([^']*)')?", re.IGNORECASE
+)
 
 
 def parse_st(source: Source) -> tuple[tree.File, list[Problem]]:

@@ -294,7 +294,7 @@ APART = {
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
     Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION, Allowance.OPEN_REFERENCES,
-    Allowance.OPEN_INPUTS, Allowance.SETTING_LISTS, Allowance.WORD_COUNTERS,
+    Allowance.OPEN_INPUTS, Allowance.SETTING_LISTS, Allowance.WORD_COUNTERS, Allowance.SHORT_TIMES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

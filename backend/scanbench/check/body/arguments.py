@@ -11,6 +11,7 @@ from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.receivers import is_variable
+from scanbench.check.body.short_times import cut_here
 from scanbench.check.body.subrange_checks import arriving, has_subranges, keeping, noting, with_note
 from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
@@ -183,10 +184,12 @@ def as_value(body: Body, made: Invocation, span: Span) -> Expr:
         raise Rejected  # the type of its result was refused
     if made.call.type is None:
         raise body.report.reject("T010", f"`{made.call.pou.name}` has no result; call it as a statement.", span)
+    # the library computes in nanoseconds
+    value = cut_here(body, made.call) if made.call.pou.inline else made.call
     if not made.before and not made.after:
-        return made.call
+        return value
     if not made.after:
-        return Sequence(tuple(made.before), made.call)
+        return Sequence(tuple(made.before), value)
     result = body.temporary(made.call.type, span)
     return Sequence(tuple(made.statements(span, result)), Load(result))
 

@@ -16,6 +16,7 @@ from scanbench.check.body.ladder import Ladder
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.body.objects import own
 from scanbench.check.body.places import inside
+from scanbench.check.body.short_times import clock
 from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import place_of
 from scanbench.problems import Span
@@ -52,9 +53,7 @@ class ChartCode:
     def statements(self) -> tuple[Stmt, ...]:
         self._begin()
         if any(each in chart.TIMED for use in self._uses for each in use.by_qualifier):
-            self._temporary("$now", TIME)
-            clock = tree.Call(tree.Name("TIME", self._made), (), self._made)
-            self._code.run(tree.Assignment(tree.Name("$now", self._made), clock, self._made))
+            self._set(self._temporary("$now", TIME), clock(self._body, TIME, beyond=True))
         for step in self._steps.values():
             self._when(self._active(step), partial(self._call, step.name, step.span))
         for use in self._uses:

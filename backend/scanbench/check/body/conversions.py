@@ -19,7 +19,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.short_times import counts, cut
 from scanbench.check.body.standard_fold import intrinsic
+from scanbench.check.vendor_sizes import UNITS
 from scanbench.program.program import Compare, Const, Expr, Intrinsic
 from scanbench.program.types import (
     ABBREVIATIONS,
@@ -29,6 +31,7 @@ from scanbench.program.types import (
     LINT,
     LREAL,
     LWORD,
+    UDINT,
     ULINT,
     Elementary,
     Enumeration,
@@ -50,8 +53,6 @@ SHORT = {name: type for name, type in ABBREVIATIONS.items() if len(name) > 2 or 
 NUMBER_TEXT = StringType(20)
 REAL_TEXT = StringType(32)
 BITCASTS = {("DWORD", "REAL"), ("REAL", "DWORD"), ("LWORD", "LREAL"), ("LREAL", "LWORD")}
-UNITS = {"TIME": 1_000_000, "TIME_OF_DAY": 1_000_000, "DATE": 1_000_000_000, "DATE_AND_TIME": 1_000_000_000}
-"""Nanoseconds that a number counts; 1 for the long types."""
 
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 TIMES = (Kind.TIME, Kind.DATE)
@@ -81,6 +82,8 @@ class Vendor:
     """Texts have a base and `_`, and lose their upper bits."""
     halves_away: bool = False
     """A REAL is rounded to an integer with halves away from zero, and loses its upper bits."""
+    short_times: bool = False
+    """TIME, TOD, DATE and DT have 32 bits without a sign, and whole milliseconds or seconds."""
 
 
 STANDARD = Vendor()
@@ -184,6 +187,13 @@ def _nearest(value: float, wide: bool) -> int:
     return whole + (abs(value - whole) >= 0.5) * (1 if value > 0 else -1)
 
 
+def nearest(value: Expr, library: Library) -> Expr:
+    """A REAL or LREAL as a LINT as CODESYS makes one of it."""
+    made = _Converter(library, Vendor(halves_away=True)).convert(value, LINT)
+    assert made is not None
+    return made
+
+
 class _Converter:
     """Conversions between elementary types and strings; each gives None where there is none."""
 
@@ -241,13 +251,19 @@ class _Converter:
             days = {_part(source), _part(target)}
             return None if days == {"DATE", "TIME_OF_DAY"} else self._as_time(expr, target)
         if target.kind in TIMES:
-            if source.kind is Kind.REAL:
+            if self._vendor.short_times and target.name in UNITS:
+                if source.kind is Kind.REAL and (nearest := self._nearest(expr, LINT)) is not None:
+                    expr = nearest
+                expr = fold.convert(UDINT, expr)  # the bits that count
+            elif source.kind is Kind.REAL:
                 scaled = fold.binary("mul", LREAL, fold.convert(LREAL, expr), Const(LREAL, float(_unit(target))))
                 return self._as_time(fold.convert(LINT, scaled), target)
             ns = fold.binary("mul", LINT, fold.convert(LINT, expr), Const(LINT, _unit(target)))
             return self._as_time(ns, target)
         if target.kind is Kind.BOOL:
             return Compare("ne", BOOL, fold.convert(LINT, expr), Const(LINT, 0))
+        if target.kind is Kind.REAL and self._vendor.short_times and source.name in UNITS:
+            return fold.convert(target, counts(expr))
         if target.kind is Kind.REAL:
             ns = fold.convert(LREAL, fold.convert(LINT, expr))
             return fold.convert(target, fold.binary("div", LREAL, ns, Const(LREAL, float(_unit(source)))))
@@ -261,8 +277,12 @@ class _Converter:
         assert isinstance(source, Elementary)
         if part in ("DATE", "TIME_OF_DAY") and part != _part(source):
             made = self.library(f"DATE_AND_TIME_TO_{part}", fold.convert(DATE_AND_TIME, expr))
-            return None if made is None else fold.convert(target, made)
-        return fold.convert(target, expr)
+            return None if made is None else self._kept(target, made)
+        return self._kept(target, expr)
+
+    def _kept(self, target: Elementary, time: Expr) -> Expr:
+        """A time as the dialect has it."""
+        return cut(target, time) if self._vendor.short_times and target.name in UNITS else fold.convert(target, time)
 
     # ---- text -------------------------------------------------------------------------------------------
 
@@ -317,7 +337,7 @@ class _Converter:
             return fold.convert(target, Intrinsic("MIN", LINT, (number, Const(LINT, high))))
         name = "BOOL" if target.kind is Kind.BOOL else _part(target)
         made = self.library(f"STRING_TO_{name}", expr)
-        return None if made is None else fold.convert(target, made)
+        return None if made is None else self._kept(target, made)
 
 
 def _part(type: Elementary) -> str:

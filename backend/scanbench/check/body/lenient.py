@@ -6,6 +6,7 @@ Where the value depends on something that no documentation of the vendor tells, 
 from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
+from scanbench.check.body.short_times import cut_here
 from scanbench.check.body.standard_fold import intrinsic
 from scanbench.check.body.wide import WHOLE
 from scanbench.check.dialect import Allowance
@@ -143,7 +144,7 @@ def negative(body: Body, type: Elementary, operand: Expr) -> Expr:
     type = operand.type if isinstance(operand.type, Elementary) else type
     if type.kind in WHOLE and type.size and may(body, Allowance.WIDE_RESULTS):
         return wide.cut(body, type, fold.unary("neg", wide.wide_of(type), wide.sixty_four(body, type, operand)))
-    return fold.unary("neg", type, operand)
+    return cut_here(body, fold.unary("neg", type, operand))
 
 
 def enumerated(body: Body, expr: Const, type: Enumeration, span: Span, what: str) -> Const | None:

@@ -7,6 +7,7 @@ from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
 from scanbench.check.body.lenient import MILLISECOND_NS, enumerated
+from scanbench.check.body.short_times import literal_here
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
@@ -52,7 +53,7 @@ def literal(body: Body, node: tree.Literal, wanted: Type | None) -> Const:
         )
         if isinstance(wanted, Elementary) and wanted.name == f"L{type.name}":
             type = wanted  # T#5s is as good for an LTIME
-        return Const(type, node.value)
+        return literal_here(body, Const(type, node.value), node.span)
     if node.type_name is not None:
         return _typed(body, node, node.type_name)
     match node.kind:

@@ -1,16 +1,20 @@
 """Operators -> typed operations: both operands brought to one type, every conversion written out."""
 
+from functools import partial
+
 from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.bitwise import LOGIC, logical, smallest
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.conversions import nearest
 from scanbench.check.body.joining_hint import joining_hint
 from scanbench.check.body.lenient import BITS, as_calculated, as_duration, bit_sum, counted, index
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.places import plain_reference
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.remainder import remainder
+from scanbench.check.body.short_times import counts, cut_here, is_short, joined, of_counts
 from scanbench.check.body.subrange_checks import plain
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
@@ -21,6 +25,7 @@ from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     ELEMENTARY,
+    LINT,
     LREAL,
     LTIME,
     TIME,
@@ -180,7 +185,7 @@ def _time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
     a, b = left.type, right.type
     if isinstance(a, Elementary) and isinstance(b, Elementary):
         if a.kind in MOMENTS and b.kind in MOMENTS and op in ("add", "sub"):
-            made = _moments(op, left, right, a, b)
+            made = _moments(body, op, left, right, a, b)
             if made is not None:
                 return made
         if a.kind is Kind.TIME and op in ("mul", "div"):
@@ -198,22 +203,23 @@ def _no_time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Except
     )  # fmt: skip
 
 
-def _moments(op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
+def _moments(body: Body, op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
     """Sums and differences of durations and dates."""
     long = LTIME if a.name.startswith("L") or b.name.startswith("L") else TIME
     if a.kind is Kind.TIME and b.kind is Kind.TIME:
-        return fold.binary(op, long, fold.convert(long, left), fold.convert(long, right))
+        return cut_here(body, fold.binary(op, long, fold.convert(long, left), fold.convert(long, right)))
     if a.kind is Kind.DATE and b.kind is Kind.DATE:
         if op != "sub" or a.name.removeprefix("L") != b.name.removeprefix("L"):
             return None
-        return fold.binary("sub", long, fold.convert(long, left), fold.convert(long, right))
+        return cut_here(body, fold.binary("sub", long, fold.convert(long, left), fold.convert(long, right)))
     if a.kind is Kind.TIME:
         if op != "add":
             return None
         left, right, a = right, left, b
     if a.name.removeprefix("L") == "DATE":
         return None
-    made = fold.binary(op, a, left, fold.convert(a, right))
+    short = is_short(body, a)
+    made = joined(op, left, right) if short else fold.binary(op, a, left, fold.convert(a, right))
     if a.name.removeprefix("L") == "TIME_OF_DAY":
         # the clock begins again at midnight
         day = Const(a, DAY_NS)
@@ -224,12 +230,20 @@ def _moments(op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> 
 def _scaled(body: Body, op: str, time: Expr, type: Elementary, factor: Expr, span: Span) -> Expr:
     factor = settle(factor)
     factor = index(body, factor, span, "The number that scales a TIME") or factor
+    short = is_short(body, type)
     if isinstance(factor.type, Elementary) and factor.type.kind in (Kind.INT, Kind.UINT):
+        if short:
+            return of_counts(type, _arithmetic(body, op, LINT, counts(time), fold.convert(LINT, factor), span))
         return _arithmetic(body, op, type, time, fold.convert(type, factor), span)
     if isinstance(factor.type, Elementary) and factor.type.kind is Kind.REAL:
-        scaled = fold.binary(op, LREAL, fold.convert(LREAL, time), fold.convert(LREAL, factor))
-        return fold.convert(type, scaled)
+        start = counts(time) if short else time
+        scaled = fold.binary(op, LREAL, fold.convert(LREAL, start), fold.convert(LREAL, factor))
+        return of_counts(type, nearest(scaled, partial(_library, body))) if short else fold.convert(type, scaled)
     raise _no_time(body, op, time, factor, span)
+
+
+def _library(body: Body, name: str, *args: Expr) -> Expr | None:
+    return body.effects.library(body, name, args)
 
 
 def _power(body: Body, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:

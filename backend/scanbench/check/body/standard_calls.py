@@ -11,6 +11,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.lenient import bits_of, literal_shifted, shifted, shifted_with_sign
 from scanbench.check.body.named_texts import name_of
 from scanbench.check.body.operators import operate
+from scanbench.check.body.short_times import clock
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
 from scanbench.check.dialect import Allowance
@@ -204,7 +205,7 @@ def _special(
         values = alike(body, values, node.span, name, None, typed)
     match base:
         case "TIME" | "LTIME":
-            return standard_fold.intrinsic("CLOCK", LTIME if base == "LTIME" else TIME, ())
+            return clock(body, LTIME if base == "LTIME" else TIME)
         case "MOVE":
             return values[0]
         case "NOT":
@@ -301,6 +302,7 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         may(body, Allowance.TRUE_TEXTS),
         may(body, Allowance.TEXT_NUMBERS),
         may(body, Allowance.HALVES_AWAY),
+        may(body, Allowance.SHORT_TIMES),
     )
     value = wide.settled(body, value)
     if isinstance(value.type, Enumeration) and value.type.named and isinstance(target, StringType):

@@ -7,10 +7,11 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Pou
-from scanbench.program.types import TIME, Record, Type
+from scanbench.program.types import LTIME, TIME, Record, Type
 from scanbench.syntax import tree
 from scanbench.syntax.scl import STARTUP
 
@@ -175,7 +176,8 @@ class Planner:
     def _task(self, task: tree.TaskDeclaration, prefix: str) -> PlannedTask:
         interval = 0 if task.single is not None else self._interval_ns
         if task.interval is not None:
-            interval = self._number(task.interval, TIME, "The interval of a task is a TIME.")
+            finer = Allowance.SHORT_TIMES in self._declarations.dialect.allows  # there too it may be less than 1 ms
+            interval = self._number(task.interval, LTIME if finer else TIME, "The interval of a task is a TIME.")
         if not interval >= SHORTEST_NS and not (interval == 0 and task.single is not None):
             raise self._report.reject("D010", "The interval of a task is at least T#1us.", task.span)
         priority = 0

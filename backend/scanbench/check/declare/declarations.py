@@ -15,6 +15,7 @@ from scanbench.check.dialect import Dialect
 from scanbench.check.dialect_table import IEC
 from scanbench.check.libraries.catalogue import where_declared
 from scanbench.check.uses import Symbol
+from scanbench.check.vendor_sizes import short_type
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
@@ -161,7 +162,7 @@ class Declarations:
         """The type, or the variables of the block, of this name; made where it is not yet."""
         key = name.upper()
         if key in TYPE_NAMES:
-            return TYPE_NAMES[key]
+            return short_type(self.dialect, TYPE_NAMES[key])
         found = self.find_type(name, span)
         vendor = None if found is not None else vendor_type(self.report, self.dialect, name, span)
         if vendor is not None:

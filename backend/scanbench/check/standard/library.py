@@ -29,18 +29,20 @@ WORD_COUNTERS = {
 }
 """What CTU, CTD and CTUD have instead in CODESYS and TwinCAT: https://content.helpme-codesys.com/en/libs/Standard/Current/Counter/CTUD.html,
 https://infosys.beckhoff.com/content/1033/tcplclib_tc2_standard/74398987.html. The text is strict, as in every dialect."""
+WHOLE_SECONDS = "ADD_DT_TIME(preset, TIME() - start)", "UDINT_TO_DT(DT_TO_UDINT(ADD_DT_TIME(preset, TIME() - start)))"
+"""What RTC has there, and instead where a DT has no less."""
 WORD = re.compile(r"-32768|CV [+-] 1\b|\w+(?:#\w+)?")
 
 
 def library_of(dialect: Dialect) -> tuple[tree.File, ...]:
     """What the standard library has in a dialect."""
-    return library(Allowance.WORD_COUNTERS in dialect.allows)
+    return library(Allowance.WORD_COUNTERS in dialect.allows, Allowance.SHORT_TIMES in dialect.allows)
 
 
 @cache
-def library(words: bool = False) -> tuple[tree.File, ...]:
-    """The standard library's ST files, parsed; CTU, CTD and CTUD count in WORD, or in INT as the standard says."""
-    return tuple(_parsed(path, text) for path, text in _texts(words))
+def library(words: bool = False, seconds: bool = False) -> tuple[tree.File, ...]:
+    """The standard library's ST files, parsed; CTU, CTD and CTUD count in WORD, or in INT as the standard says; a DT has whole seconds."""
+    return tuple(_parsed(path, text.replace(*WHOLE_SECONDS) if seconds else text) for path, text in _texts(words))
 
 
 @cache
