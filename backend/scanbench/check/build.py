@@ -60,6 +60,7 @@ from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 from scanbench.syntax.language_file import dialect_of, is_language_file
+from scanbench.syntax.objects import joined
 from scanbench.syntax.parse_generic import VARIADIC
 from scanbench.syntax.requirements import is_requirements
 
@@ -121,19 +122,19 @@ def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = Non
     enabling = frozenset(file.name for file in files if ENABLING.search(file.text))
     looked_at = (looks or Looks()).at(chunk for file in files for chunk in file.chunks)
     used = as_used(model, (file.text for file in files))
-    return Checker(Report(), used, [file.file for file in files], enabling, looked_at, dialect)
+    return Checker(Report(), used, joined([file.file for file in files])[0], enabling, looked_at, dialect)
 
 
 def concluded(files: Sequence[Chunked], report: Report, program: Program | None, whole: bool = True) -> Checked:
     """What came out, in spans that do not move any more. A program that is not `whole` tells what it consists of, and is left out."""
-    written = [problem for file in files for problem in file.problems]
+    trees, apart = joined([file.file for file in files])
+    written = [*(problem for file in files for problem in file.problems), *apart]
     found = [*written, *report.problems]
     if any(each.severity is Severity.ERROR for each in written):  # what could not be read may be the program
         found = [each for each in found if each.code != "D011"]
     problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
     problems = folded(problems)
-    trees = [file.file for file in files]
     infos = tuple(pou_infos(trees))
     if any(problem.severity is Severity.ERROR for problem in problems):
         return Checked(None, tuple(problems), infos)

@@ -65,8 +65,8 @@ def dialect_in(sources: Mapping[str, str]) -> Dialect:
     dialect = DIALECTS[language.dialect]
     if language.version < BYTES_SINCE:
         dialect = replace(dialect, allows=dialect.allows - {Allowance.STRING_BYTES})
-    if language.defines:
-        dialect = replace(dialect, defines=defined_in(sources))
+    if defined := defined_in(sources):
+        dialect = replace(dialect, defines=defined)
     if language.subranges:
         dialect = replace(dialect, subranges={name.upper(): said for name, said in language.subranges.items()})
     named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}

@@ -31,6 +31,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked, read
+from scanbench.syntax.objects import joined
 from scanbench.syntax.parse_file import is_stimulus
 
 _TELLS_PLACE = re.compile(r"\bline \d|:\d+:\d+")
@@ -152,7 +153,7 @@ class Project:
         """Takes other tables of inputs, which no body sees."""
         for name, text in edited.items():
             self.files[name] = read(name, text, self.dialect.defines)
-        self.checker.parsed = [file.file for file in self.files.values()]
+        self.checker.parsed = joined([file.file for file in self.files.values()])[0]
         self._finish()
 
     def _finish(self) -> None:

@@ -34,6 +34,8 @@ def declarations(file: tree.File) -> list[Declared]:
     found: list[Declared] = []
     for pou in file.pous:
         found += _pou(pou)
+    for member in file.members:
+        found += (each for method in member.methods for each in _method(method, member.name.upper()))
     for type in file.types:
         found += _type(type)
     sections = list(file.globals)
@@ -52,9 +54,13 @@ def _pou(pou: tree.PouDeclaration) -> Iterator[Declared]:
     yield Declared(Symbol("pou", "", key), pou.name, pou.span, pou)
     yield from _variables(pou, key)
     for method in pou.methods:
-        yield Declared(Symbol("method", key, method.name.upper()), method.name, method.span, method)
-        half = f".{method.kind.upper()}" if method.kind in ("get", "set") else ""
-        yield from _variables(method, f"{key}.{method.name.upper()}{half}")
+        yield from _method(method, key)
+
+
+def _method(method: tree.PouDeclaration, owner: str) -> Iterator[Declared]:
+    yield Declared(Symbol("method", owner, method.name.upper()), method.name, method.span, method)
+    half = f".{method.kind.upper()}" if method.kind in ("get", "set") else ""
+    yield from _variables(method, f"{owner}.{method.name.upper()}{half}")
 
 
 def _variables(pou: tree.PouDeclaration, owner: str) -> Iterator[Declared]:

@@ -3,7 +3,7 @@
 import re
 from bisect import bisect
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.build import program_files
@@ -154,6 +154,7 @@ def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: S
     errors = [each for each in problems if each.severity is Severity.ERROR]
     units = {name: _units(file, texts[name], errors) for name, file in files.items()}
     every = [each for own in units.values() for each in own]
+    _join(every, files.values())
     stopped = _reached(every, [each for each in every if each.wrong])
     stubbed = _reached(every, [each for each in every if each.stub])
     held = [each for name, own in units.items() if library_of_file(name) == PLACEHOLDERS for each in own]
@@ -178,6 +179,9 @@ def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]
     """What a file declares, in order, with the errors that are in the lines of each."""
     made = [_Unit(each.span.line, (each.name.upper(),), True, each.stub, own=_variables(each)) for each in file.pous]
     made += [_Unit(each.span.line, (each.name.upper(),), is_pou=False) for each in file.types]
+    for member in file.members:
+        own = frozenset[str]().union(*map(_variables, member.methods))
+        made.append(_Unit(1, _name_of(member), is_pou=False, own=own))
     for section in file.globals:
         made.append(_Unit(section.span.line, tuple(each.name.upper() for each in section.variables), is_pou=False))
     made.sort(key=lambda each: each.line)
@@ -191,6 +195,22 @@ def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]
         code = NO_CODE.sub(" ", "\n".join(lines[each.line - 1 : end - 1]))
         each.words = {word.upper() for word in WORD.findall(code)} - each.own
     return made
+
+
+def _join(units: Sequence[_Unit], files: Iterable[tree.File]) -> None:
+    """A POU uses its members that have files of their own; its variables are theirs."""
+    pous = {each.names[0]: each for each in units if each.is_pou}
+    apart = {each.names: each for each in units if not each.is_pou and each.names}
+    for member in (each for file in files for each in file.members):
+        owner, unit = pous.get(member.name.upper()), apart.get(_name_of(member))
+        if owner is not None and unit is not None:
+            owner.words.update(unit.names)
+            unit.words -= owner.own
+
+
+def _name_of(member: tree.PouDeclaration) -> tuple[str, ...]:
+    """A word that no text has."""
+    return (" ".join((member.name, *member.modifiers, *(each.name for each in member.methods))).upper(),)
 
 
 def _variables(pou: tree.PouDeclaration) -> frozenset[str]:

@@ -10,6 +10,7 @@ from scanbench.syntax.conditions import conditions
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
+from scanbench.syntax.objects import is_object
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.pragmas import in_out_pragmas, is_external, subrange_policies
@@ -66,6 +67,7 @@ class Chunked:
             whole.settings += chunk.file.settings
             whole.internal += chunk.file.internal
             whole.stimuli += chunk.file.stimuli
+            whole.members += chunk.file.members
         return whole
 
     @property
@@ -127,6 +129,7 @@ def read(name: str, text: str, defined: frozenset[str] = frozenset()) -> Chunked
         or is_stimulus(name)
         or is_exported(name, text)
         or is_scl(name)
+        or is_object(name, defined)
         or parse_foreign(Source(name, text))
     ):
         return _whole(name, text, defined)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from scanbench.syntax import tree
+from scanbench.syntax.objects import MEMBER
 
 _NAMES: dict[type, str] = {
     tree.Assignment: "assignment",
@@ -47,7 +48,7 @@ def count_constructs(file: tree.File) -> Counter[str]:
 def _name(node: object) -> str:
     match node:
         case tree.PouDeclaration(kind=kind):
-            return kind.upper()
+            return "" if kind == MEMBER else kind.upper()
         case tree.VariableSection(keyword=keyword):
             return keyword
         case tree.StructSpec(union=union):

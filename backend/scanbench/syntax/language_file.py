@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from scanbench.problems import Problem, Severity, Span
+from scanbench.syntax.objects import OBJECTS, is_export
 from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
 from scanbench.syntax.pragmas import POLICIES
 from scanbench.syntax.scl import is_scl
@@ -92,7 +93,7 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
 
 def with_dialect_by_format(sources: Mapping[str, str], name: str = LANGUAGE_FILE) -> dict[str, str]:
     """The sources, in the dialect of their files' format if they name none; `name` is that of the file that says so then."""
-    of_format = dialect_by_format(sources)
+    of_format = "codesys" if is_export(sources) else dialect_by_format(sources)
     if of_format == STRICT or any(map(is_language_file, sources)):
         return dict(sources)
     return with_dialect(sources, of_format, name)
@@ -149,8 +150,9 @@ def language_of(sources: Mapping[str, str]) -> tuple[Language, list[Problem]]:
 
 
 def defined_in(sources: Mapping[str, str]) -> frozenset[str]:
-    """The names, in upper case, that these files define for conditional pragmas."""
-    return frozenset(each.upper() for each in language_of(sources)[0].defines)
+    """The names, in upper case, that these files define for conditional pragmas; and OBJECTS, where each is an object."""
+    objects = {OBJECTS} if is_export(sources) else ()
+    return frozenset((*objects, *(each.upper() for each in language_of(sources)[0].defines)))
 
 
 def _read(text: str, file: str) -> Language | Problem:
@@ -232,7 +234,7 @@ def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> Diale
     programs = [text for name, text in files.items() if is_program_file(name)]
     if any(map(_TWINCAT_MARKS.search, programs)):
         return "twincat"
-    exported = any(name.endswith((".exp", ".project", ".export")) for name in names)
+    exported = is_export(files) or any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
     if any(name.endswith((".awl", "apax.yml")) for name in names) or any(map(is_scl, files)):

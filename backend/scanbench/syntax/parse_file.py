@@ -5,6 +5,7 @@ import re
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.foreign_files import parse_foreign
+from scanbench.syntax.objects import is_object, parse_object
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.parse_stimulus import parse_stimulus
 from scanbench.syntax.scl import ENDINGS as SCL_ENDINGS
@@ -54,4 +55,6 @@ def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
         return parse_stimulus(source)
     if is_exported(source.name, source.text):
         return parse_tc(source)
+    if is_object(source.name, source.defined):
+        return parse_foreign(source) or parse_object(source)
     return parse_foreign(source) or (parse_scl(source) if is_scl(source.name) else parse_st(source))

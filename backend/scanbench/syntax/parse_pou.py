@@ -56,7 +56,7 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         if c.word() in MEMBERS and c.kinds[c.at + 1] is NAME:
             methods += member(c, kind)
             continue
-        body = _joined(body, _whole_body(c, body))
+        body = _joined(body, whole_body(c, body))
         if c.at == before:
             break
     if body and kind in ("CLASS", "INTERFACE"):
@@ -115,7 +115,7 @@ def _span_of(c: Cursor, pragma: InOutPragma) -> Span:
     return Stretch(c.source, pragma.start, pragma.end)
 
 
-def _whole_body(c: Cursor, first: Body = ()) -> Body:
+def whole_body(c: Cursor, first: Body = ()) -> Body:
     """A body, or what follows its `first` part; what closes a block that was never opened is reported, and the body goes on."""
     body = parse_il.body(c, first)
     while c.texts[c.at] in BLOCK_ENDS:
@@ -258,7 +258,7 @@ def _method(
     c: Cursor, owner: str, name: int, result: tree.TypeSpec | None, access: str, modifiers: tuple[str, ...]
 ) -> tree.PouDeclaration:
     sections = parse_declaration.sections(c)
-    body = _whole_body(c)
+    body = whole_body(c)
     # in an interface, and where a vendor's export says nothing more, the next declaration ends it
     if not c.accept("END_METHOD") and not (owner == "INTERFACE" and not body):
         _missing(c, "END_METHOD", f"METHOD {c.texts[name]}")
@@ -271,7 +271,7 @@ def _action(c: Cursor) -> tree.PouDeclaration:
     name = c.name("the name of the ACTION")
     c.accept(":")
     c.wall = parse_chart.wall(c)
-    body = _whole_body(c)
+    body = whole_body(c)
     c.wall = -1
     if not c.accept("END_ACTION"):
         _missing(c, "END_ACTION", f"ACTION {c.texts[name]}")
@@ -295,7 +295,7 @@ def _property(
     if word != "PROPERTY":
         sections = parse_declaration.sections(c)
         kind = "get" if word == "PROPERTY_GET" else "set"
-        found.append(_declared(c, kind, name, result, sections, _whole_body(c), access, modifiers))
+        found.append(_declared(c, kind, name, result, sections, whole_body(c), access, modifiers))
     if word == "PROPERTY":
         _variables_of_property(c, name)
     while word == "PROPERTY" and (part := _part(c)):
@@ -306,7 +306,7 @@ def _property(
             own_access = c.texts[c.take()].upper()
         own_access = before if own_access == "PUBLIC" else own_access
         sections = parse_declaration.sections(c)
-        body = _whole_body(c) if not _part(c) else ()
+        body = whole_body(c) if not _part(c) else ()
         shown = own_access if own_access != "PUBLIC" else access
         found.append(_declared(c, part.lower(), name, result, sections, body, shown, modifiers))
         if not c.accept(f"END_{part}") and owner != "INTERFACE" and not c.is_("END_PROPERTY"):

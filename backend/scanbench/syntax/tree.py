@@ -372,8 +372,7 @@ class ProgramDeclaration:
     connections: tuple[Argument, ...] = ()
     block_tasks: tuple[tuple[str, str, Span], ...] = ()
     """(instance of a block, task): it runs in that task instead."""
-    retain: bool = False
-    """`PROGRAM RETAIN name ...`."""
+    retain: bool = False  # `PROGRAM RETAIN name ...`
 
 
 @node
@@ -425,6 +424,7 @@ class File:
     settings: list[Variable] = field(default_factory=list)  # VAR_CONFIG outside of a CONFIGURATION
     internal: list[str] = field(default_factory=list)  # namespaces that are declared INTERNAL, by their full names
     stimuli: list["Stimulus"] = field(default_factory=list)
+    members: list[PouDeclaration] = field(default_factory=list)  # of POUs in other files, see `objects.joined`
 
 
 @dataclass(eq=False, slots=True)

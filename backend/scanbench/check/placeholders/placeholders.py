@@ -7,6 +7,7 @@ from scanbench.check.placeholders.look import look
 from scanbench.check.placeholders.texts import Writer
 from scanbench.check.placeholders.world import World
 from scanbench.syntax.language_file import defined_in
+from scanbench.syntax.objects import joined
 from scanbench.syntax.parse_file import is_program_file, is_stimulus, parse_file
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
@@ -27,7 +28,7 @@ def placeholders(
     With `only`, nothing but these names, in upper case, may be missing, and what a name is called says nothing of what it is."""
     known = defined_in(sources)
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
-    files = [parse_file(Source(path, text, defined=known))[0] for path, text in texts.items()]
+    files, _ = joined([parse_file(Source(path, text, defined=known))[0] for path, text in texts.items()])
     world = World(files, frozenset(each.upper() for each in prefixes), missing, only)
     for _ in range(ROUNDS):
         look(world, files)
