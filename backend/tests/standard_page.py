@@ -51,7 +51,19 @@ def page() -> str:
                     f"| {signature(pou)} | {summary(said_in_library(pou.span))} |"
                 )
     lines += ["## Functions in ST", "", "| function | what it does |", "|---|---|", *functions, ""]
-    lines += ["## Function blocks", "", "| block | what it does |", "|---|---|", *blocks, "", *FIRST_CALLS, ""]
+    counters = "In `codesys` and `twincat`, PV and CV of CTU, CTD and CTUD are WORD, from 0 to 65535."
+    lines += [
+        "## Function blocks",
+        "",
+        counters,
+        "",
+        "| block | what it does |",
+        "|---|---|",
+        *blocks,
+        "",
+        *FIRST_CALLS,
+        "",
+    ]
     return "\n".join(lines)
 
 

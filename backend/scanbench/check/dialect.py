@@ -86,6 +86,8 @@ class Allowance(Enum):
     REAL_MOD = auto()
     LITERAL_SIZES = auto()
     SHORT_TIMES = auto()
+    ALIKE_STRUCTURES = auto()
+    REAL_FUNCTIONS = auto()
 
 
 @dataclass(frozen=True, slots=True)

@@ -229,6 +229,8 @@ RULES: dict[Allowance, Rule] = {
         "they have a sign, and go as far as 64 bits",
         "LTIME",
     ),
+    Allowance.REAL_FUNCTIONS: Rule("SQRT, SIN and the like of integers", "they take reals", "`SQRT(INT_TO_LREAL(i))`"),
+    Allowance.ALIKE_STRUCTURES: Rule("assignments of STRUCTs with the same members", "each is a type", "one TYPE"),
     Allowance.INSTANCE_COPIES: Rule(
         "an assignment of an instance of a block to one of the same block: all that it has is copied, pointers too",
         "an instance is never assigned",

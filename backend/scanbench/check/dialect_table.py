@@ -24,6 +24,7 @@ _SIEMENS = frozenset(
             Allowance.BLOCK_WRITES,
             Allowance.TEXT_CASES,
             Allowance.OPEN_REFERENCES,
+            Allowance.ALIKE_STRUCTURES,
         ),
     }
 )

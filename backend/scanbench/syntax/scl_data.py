@@ -112,11 +112,23 @@ class DataBlocks(Words):
                 self._put(Lex.OPERATOR, ":=", at)
             self._put(Lex.OPERATOR, "(" if first else ",", at)
             first = False
+            self._starts = True
             while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
                 self._copy()
+            self._starts = False
         if not first:
             self._put(Lex.OPERATOR, ")", self._in.starts[self._at])
 
     def _skip_settings(self) -> None:
-        while self._word() in _SETTINGS and self._begins_line():
-            self._skip_line()
+        """What is said of a block before its declarations; a version, and what is of one word, may have more in their line."""
+        while (word := self._word()) in _SETTINGS:
+            if word in ("KNOW_HOW_PROTECT", "NON_RETAIN"):
+                self._at += 1
+            elif self._word(1) not in (":", "="):
+                return
+            elif word == "TITLE" or (word != "VERSION" and self._begins_line()):
+                self._skip_line()
+            else:
+                self._at += 3
+                while self._in.kinds[self._at] in (Lex.INTEGER, Lex.REAL) or self._word() == ".":
+                    self._at += 1

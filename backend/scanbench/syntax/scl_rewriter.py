@@ -17,6 +17,8 @@ class Rewriter:
         """Names that are declared in this block, or written with `#`, in upper case."""
         self._declares = False
         """Between VAR and END_VAR."""
+        self._starts = False
+        """Among the start values after BEGIN of a data block."""
         self._depth = 0
         """Of parentheses."""
 

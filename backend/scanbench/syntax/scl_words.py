@@ -139,7 +139,7 @@ class Words(Rewriter):
         moment, duration = DTL.match(self._source.text, at), S5.match(self._source.text, at)
         if moment is not None and (members := members_of_dtl(moment)) is not None:
             self._skip_to(moment.end())
-            if self._declares:
+            if self._declares or self._starts:
                 listed = [
                     ((Lex.NAME, name), (Lex.OPERATOR, ":="), (Lex.INTEGER, str(value)))
                     for name, value in members.items()

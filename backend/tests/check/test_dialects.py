@@ -68,6 +68,7 @@ USES = [
     (Allowance.NARROWING, "u := i;", "INT_TO_UINT(...)"),
     (Allowance.NARROWING, "b := w;", "WORD_TO_BYTE(...)"),
     (Allowance.REAL_CONVERSION, "r := l;", "LREAL_TO_REAL(...)"),
+    (Allowance.REAL_FUNCTIONS, "l := SQRT(i);", "SQRT(INT_TO_LREAL(...))"),
     (Allowance.REAL_CONVERSION, "r := d;", "DINT_TO_REAL(...)"),
     (Allowance.BITS_AS_REALS, "r := dw;", "UDINT_TO_REAL(DWORD_TO_UDINT(...))"),
     (Allowance.TIME_NUMBERS, "t := d;", "DINT_TO_TIME(...)"),
@@ -295,6 +296,7 @@ APART = {
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
     Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION, Allowance.OPEN_REFERENCES,
     Allowance.OPEN_INPUTS, Allowance.SETTING_LISTS, Allowance.WORD_COUNTERS, Allowance.SHORT_TIMES,
+    Allowance.ALIKE_STRUCTURES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

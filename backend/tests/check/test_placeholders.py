@@ -275,3 +275,32 @@ END_PROGRAM
         assert each in one, each
     problems = check_sources(sources | {PATH: found[0]}, MODELS["GENERIC-IEC"]).problems
     assert [each.message[:28] for each in problems if each.severity is Severity.ERROR] == ["`Missing` is not declared."]
+
+
+def test_counters_are_those_of_the_dialect() -> None:
+    machine = "PROGRAM MAIN VAR c : CTU; d : FB_Panel; END_VAR c(CU := TRUE, PV := 3); d.total := c.CV; END_PROGRAM"
+    text, _, problems = checked(machine)
+    assert "total : WORD" in text
+    assert [str(each) for each in problems if each.severity is Severity.ERROR] == []
+
+
+def test_what_leads_back_to_itself_is_elsewhere() -> None:
+    for machine, line in (
+        (
+            "PROGRAM MAIN VAR d, e : FB_Node; END_VAR d := d.next; e := d.next.next; END_PROGRAM",
+            "next : REFERENCE TO FB_Node;",
+        ),
+        (
+            "PROGRAM MAIN VAR d, e : ST_Node; END_VAR d.next := e; e.v := d.next.v; END_PROGRAM",
+            "next : REFERENCE TO ST_Node;",
+        ),
+        ("PROGRAM MAIN VAR d : ST_A; e : ST_B; END_VAR d.o := e; e.n := d; END_PROGRAM", "o : REFERENCE TO ST_B;"),
+        (
+            "FUNCTION_BLOCK FB_A VAR x : FB_B; END_VAR x.sub.a := 1; x.sub := x; END_FUNCTION_BLOCK\n"
+            "PROGRAM MAIN VAR a : FB_A; END_VAR a(); END_PROGRAM",
+            "sub : REFERENCE TO FB_B;",
+        ),
+    ):
+        text, _, problems = checked(machine)
+        assert line in text
+        assert [str(each) for each in problems if each.severity is Severity.ERROR] == []

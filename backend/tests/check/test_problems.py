@@ -216,3 +216,11 @@ def test_what_is_said_of_an_address(line: str, code: str, words: str) -> None:
 def test_what_may_be_reached_is_not_said_to_be_unreached(body: str) -> None:
     text = MAIN.replace("VAR x", "VAR CONSTANT OFF : BOOL := FALSE; END_VAR VAR x").format(body)
     assert "W007" not in [each.code for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems]
+
+
+def test_two_structures_that_are_written_out_are_told_apart() -> None:
+    text = "PROGRAM Main\nVAR a : STRUCT x : INT; END_STRUCT; b : STRUCT x : INT; END_STRUCT; END_VAR\na := b;\nEND_PROGRAM\n"
+    (problem,) = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems
+    assert problem.message == (
+        "`a` and the value are of two STRUCTs, each written out in a declaration. Declare one TYPE, and both variables of it."
+    )

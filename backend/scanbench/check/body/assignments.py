@@ -4,7 +4,7 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 
-from scanbench.check.body.allowed import allowed, may
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
@@ -160,7 +160,10 @@ def _copy(body: Body, node: tree.Assignment, target: Place, note: Place | None, 
     """A whole array or structure: of this type, or an array of as many elements of the same type. The note takes it as it comes."""
     type, span = target.type, node.span
     value = body.expression(node.value, type)
-    if isinstance(value, Load) and value.type != type and alike(value.type, type):
+    parts = may(body, Allowance.ALIKE_STRUCTURES)
+    if isinstance(value, Load) and value.type != type and alike(value.type, type, parts):
+        if not alike(value.type, type):
+            used(body, Allowance.ALIKE_STRUCTURES, span, f"{what} takes a STRUCT of a different declaration")
         value = Load(replace(value.place, type=type))
     if value.type != type:
         value = coerce(body, value, type, node.value.span, what)
@@ -214,15 +217,21 @@ def _copied(body: Body, type: Type, node: tree.Assignment) -> bool:
     return given == type and allowed(body, Allowance.INSTANCE_COPIES, node.span, what)
 
 
-def alike(first: Type | None, second: Type) -> bool:
+def alike(first: Type | None, second: Type, parts: bool = False) -> bool:
     """Whether one may be assigned to the other: the same type, arrays of the same lengths of it, or variables of one declaration
-    that writes its STRUCT out. Two structures that each have a name differ, whatever their members are."""
+    that writes its STRUCT out. With `parts`, two that are written out have the same members. Two structures that each have a name
+    differ, whatever their members are."""
     if first is None or first == second:
         return first is not None
     if isinstance(first, ArrayType) and isinstance(second, ArrayType):
         lengths = [[high - low for low, high in each.bounds] for each in (first, second)]
-        return lengths[0] == lengths[1] and alike(first.element, second.element)
+        return lengths[0] == lengths[1] and alike(first.element, second.element, parts)
     if not isinstance(first, Record) or not isinstance(second, Record):
         return False
+    if first.kind is not Kind.STRUCT or not first.written_out:
+        return False
+    if parts and second.kind is Kind.STRUCT and second.written_out and [*first.members] == [*second.members]:
+        pairs = zip(first.members.values(), second.members.values(), strict=True)
+        return all(one.offset == other.offset and alike(one.type, other.type, parts) for one, other in pairs)
     declared = [[member.span for member in each.members.values()] for each in (first, second)]
-    return first.kind is Kind.STRUCT and first.written_out and declared[0] == declared[1]
+    return declared[0] == declared[1]

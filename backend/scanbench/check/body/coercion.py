@@ -74,6 +74,9 @@ def coerce(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr:
         return lenient
     if isinstance(source, Reference) and isinstance(source.target, Record) and source.target.open:
         raise Rejected  # who knows what it is derived from
+    if isinstance(source, Record) and isinstance(type, Record) and source.written_out and type.written_out:
+        message = f"{what} and the value are of two STRUCTs, each written out in a declaration. Declare one TYPE, and both variables of it."
+        raise body.report.reject("T002", message, span)
     said = "nothing" if source is None else str(settle(expr).type)
     if isinstance(expr, Const) and isinstance(source, StringType) and isinstance(type, StringType):
         hint = "Write the text in single quotes." if source.width == 2 else "Write the text in double quotes."

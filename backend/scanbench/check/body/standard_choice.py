@@ -4,14 +4,17 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from scanbench.check.body import fold, standard_fold
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import INTEGRAL, unsigned
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, hold, integer, ordered, unify
-from scanbench.check.standard.functions import Chain, Row, Same
+from scanbench.check.dialect import Allowance
+from scanbench.check.standard.functions import REALS, Chain, Row, Same
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Sequence, Stmt
-from scanbench.program.types import BOOL, LINT, Elementary, Kind, StringType, Type
+from scanbench.program.types import BOOL, LINT, LREAL, Elementary, Kind, StringType, Type
 from scanbench.syntax import tree
 
 
@@ -27,7 +30,29 @@ def same(body: Body, node: tree.Call, name: str, row: Same, wanted: Type | None,
         for value in values[1:]:
             result = standard_fold.intrinsic(row.intrinsic, type, (result, value))
         return result
+    if row.kinds == REALS and (numbers := _as_reals(body, values, node.span, name)) is not None:
+        return standard_fold.intrinsic(row.intrinsic, LREAL, numbers)
     raise body.report.reject("T002", f"`{name}` cannot work on {type}.{_hint(type, row.kinds)}", node.span)
+
+
+def _as_reals(body: Body, values: list[Expr], span: Span, name: str) -> tuple[Expr, ...] | None:
+    """Integers and bit strings as LREAL, where the dialect has that; EXP(2) is 7.389056099 in its documentation, more than a REAL has."""
+    types = [value.type for value in values]
+    if not all(isinstance(each, Elementary) and each.kind in INTEGRAL for each in types):
+        return None
+    if not allowed(
+        body,
+        Allowance.REAL_FUNCTIONS,
+        span,
+        f"`{name}` takes {types[0]} as LREAL",
+        f"`{name}({types[0]}_TO_LREAL(...))`",
+    ):
+        return None
+    whole = [
+        fold.convert(unsigned(type), value) if isinstance(type, Elementary) and type.kind is Kind.BITS else value
+        for value, type in zip(values, types, strict=True)
+    ]
+    return tuple(fold.convert(LREAL, value) for value in whole)
 
 
 def alike(body: Body, values: list[Expr], span: Span, name: str, wanted: Type | None, typed: Type | None) -> list[Expr]:

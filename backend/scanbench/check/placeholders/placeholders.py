@@ -2,10 +2,12 @@
 
 from collections.abc import Collection, Mapping
 
+from scanbench.check.dialect_table import dialect_in
 from scanbench.check.libraries.catalogue import FOLDER, PLACEHOLDERS
 from scanbench.check.placeholders.look import look
 from scanbench.check.placeholders.texts import Writer
 from scanbench.check.placeholders.world import World
+from scanbench.check.standard.library import library_of
 from scanbench.syntax.language_file import defined_in
 from scanbench.syntax.objects import joined
 from scanbench.syntax.parse_file import is_program_file, is_stimulus, parse_file
@@ -29,7 +31,8 @@ def placeholders(
     known = defined_in(sources)
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
     files, _ = joined([parse_file(Source(path, text, defined=known))[0] for path, text in texts.items()])
-    world = World(files, frozenset(each.upper() for each in prefixes), missing, only)
+    standard = library_of(dialect_in(sources))
+    world = World(files, frozenset(each.upper() for each in prefixes), missing, only, standard)
     for _ in range(ROUNDS):
         look(world, files)
         world.settle()

@@ -144,7 +144,32 @@ class Writer:
 
     def _members(self, owner: Unknown, members: Iterable[Member]) -> Iterator[str]:
         for each in members:
-            yield f"{each.name} : {self.type(each.shape, f'{owner.name}_{each.name}')};"
+            yield f"{each.name} : {REFERENCE * self._returns(each, owner)}{self.type(each.shape, f'{owner.name}_{each.name}')};"
+
+    def _returns(self, each: Member, owner: Unknown | None) -> bool:
+        """Whether a variable leads back to what it is in, and so is not in it but elsewhere."""
+        direct = owner is not None and self.world.only is None and not isinstance(each.shape.known, tree.ReferenceSpec)
+        return direct and owner is not None and self._holds(each.shape.known, owner, set())
+
+    def _holds(self, spec: tree.TypeSpec | None, wanted: Unknown, seen: set[int]) -> bool:
+        found = self.world.resolved(spec)
+        if found is wanted:
+            return True
+        if found is None or id(found) in seen:
+            return False
+        seen.add(id(found))
+        inner: list[tree.TypeSpec | None] = []
+        match found:
+            case Unknown():
+                inner = [each.shape.known for each in found.members.values()]
+            case tree.StructSpec(members=members):
+                inner = [each.type for each in members]
+            case tree.ArraySpec(element=element):
+                inner = [element]
+            case tree.PouDeclaration(kind="function_block", extends=extends, sections=sections):
+                kept = (each for section in sections if section.keyword != "VAR_IN_OUT" for each in section.variables)
+                inner = [*extends, *(each.type for each in kept)]
+        return any(self._holds(each, wanted, seen) for each in inner)
 
     def _block(self, unknown: Unknown) -> Iterator[str]:
         interfaces = [it for name in unknown.gives if (it := self.world.unknown.get(name)) is not None and it.interface]
@@ -216,7 +241,8 @@ class Writer:
         if call and len(kinds - {"other"}) > 1:
             return "ANY"
         type = self.type(each.shape, f"{owner}_{each.name}")
-        return type if self._copied(each) else REFERENCE + type
+        elsewhere = not self._copied(each) or self._returns(each, self.world.unknown.get(owner.upper()))
+        return REFERENCE + type if elsewhere else type
 
     def _copied(self, each: Member) -> bool:
         found = self.world.resolved(each.shape.known)

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from scanbench.check.declare.vendor_types import VENDOR_TYPES
 from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, join, of_type, variables
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.standard.library import library
 from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
 
@@ -41,7 +40,9 @@ class World:
         prefixes: frozenset[str],
         missing: Iterable[str],
         only: frozenset[str] | None = None,
+        standard: Iterable[tree.File] = (),
     ) -> None:
+        """`standard` is the standard library of the dialect."""
         self.only = only
         """The names that may be missing, in upper case; None where any may, and where names say what they are of."""
         self.types: dict[str, tree.TypeDeclaration | tree.PouDeclaration] = {}
@@ -59,7 +60,7 @@ class World:
         """The numbers of such names that the arguments of an array of instances tell."""
         self.fixed: set[str] = set()
         """Names that would have to be a number before anything runs, as a bound of an array: use says nothing of it."""
-        for file in (*files, *library()):
+        for file in (*files, *standard):
             self._take(file)
 
     def _take(self, file: tree.File) -> None:
