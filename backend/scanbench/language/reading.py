@@ -19,6 +19,7 @@ from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.objects import is_object
 from scanbench.syntax.source import Source, Stretch
 
 INTERVAL_NS = 10_000_000
@@ -170,10 +171,21 @@ class Reading:
         chunk = chunk_at(self.files[file], position)
         if chunk.pou is not None and not chunk.pou.methods:
             return Around(chunk.pou, None)
+        if is_object(file, chunk.source.defined):
+            return self._around_object(chunk.file)
         starts = {each.name_at for each in self._holding(chunk, position)}
         for pou in chunk.file.pous:
             if _start(pou) in starts:
                 return Around(pou, next((each for each in pou.methods if _start(each) in starts), None))
+        return None
+
+    def _around_object(self, file: tree.File) -> Around | None:
+        """What a file of one object is all inside of; a member is in its POU, which has a file of its own."""
+        wanted = {id(method.span) for member in file.members for method in member.methods}
+        for pou in (pou for each in self.project.checker.parsed for pou in each.pous):
+            method = next((each for each in pou.methods if id(each.span) in wanted), None)
+            if method is not None or any(pou.span is each.span for each in file.pous):
+                return Around(pou, method)
         return None
 
     def _holding(self, chunk: Chunk, position: int) -> list[Block]:

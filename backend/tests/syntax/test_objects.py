@@ -5,6 +5,7 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
 from scanbench.debug.frames import stack
+from scanbench.language.complete import complete
 from scanbench.language.navigate import named_at
 from scanbench.language.reading import Readings
 from scanbench.problems import Severity
@@ -168,6 +169,19 @@ def test_a_call_leads_to_the_file_of_a_member(files: dict[str, str]) -> None:
     ends = [{each.span.file.rpartition("/")[2] for each in reading.declared(it.symbol)} for it in found if it]
     assert [min(each) for each in ends] == ["FB_Tank.Fill.st", "FB_Tank.Drain.st", min(ends[2])]
     assert "FB_Tank.Limit.st" in ends[2]
+
+
+@each_layout
+def test_completion_in_a_member_offers_what_its_block_has(files: dict[str, str]) -> None:
+    reading = Readings(MODEL).read(with_dialect(files, "codesys"))
+    for name, text, own in (
+        ("FB_Tank.st", "level := level + inflow", {"inflow", "_limit", "level"}),
+        ("FB_Tank.Fill.st", "Fill := level", {"amount", "_limit", "level"}),
+        ("FB_Tank.Drain.st", "level := 0", {"_limit", "level", "inflow"}),
+    ):
+        file = next(each for each in files if each.endswith(name))
+        offered = {each.label for each in complete(reading, file, files[file].index(text))}
+        assert own <= offered, name
 
 
 @each_layout
