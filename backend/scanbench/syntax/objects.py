@@ -25,7 +25,7 @@ from scanbench.syntax.parse_pou import ENDS, MEMBERS, with_member
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.source import Source
 
-OBJECTS = "{a file for each object}"
+OBJECTS = "{OBJECTS}"
 """Among the names that a project defines, which no pragma can ask for: its files are such an export."""
 MARK = re.compile(
     r"^[ \t]*(?://[ \t]*(?:---+|===+)[ \t]*(?:BEGIN[ \t]+)?(IMPLEMENTATION|GET|SET)[ \t]*(?:---+|===+)|"
