@@ -549,3 +549,40 @@ def test_what_a_dialect_does_not_compute_is_refused(before: str, body: str, says
 def test_the_strict_language_has_no_in_outs_of_programs() -> None:
     found = check_sources(with_dialect({"a.st": CALLED}, "iec"), MODEL).problems
     assert found[0].code == "D008"
+
+
+@pytest.mark.parametrize("text", ["T#-1ms", "T#1ms500us", "T#50d", "LTIME#-5s"])
+def test_a_tool_writes_no_time_that_32_bits_do_not_have(text: str) -> None:
+    program = checked("timer();", "codesys").program
+    assert program is not None
+    for path in ("Main.t", "Main.timer.PT"):
+        type = resolve(program, path).type
+        with pytest.raises(ValueError, match="steps of 1 ms from T#0s to T#49d17h2m47s295ms"):
+            parse_value(type, text)
+        assert parse_value(type, "T#49d17h2m47s295ms") == (4_294_967_295_000_000).to_bytes(8, "little")
+    strict = checked("timer();", "iec").program
+    assert strict is not None
+    parse_value(resolve(strict, "Main.t").type, text)
+
+
+def test_a_literal_that_32_bits_do_not_have_is_refused_or_told() -> None:
+    for literal, code in (
+        ("T#-5s", "S004"),
+        ("T#49d17h2m47s296ms", "S004"),
+        ("T#1ms1us", "W004"),
+        ("T#49d17h2m47s295ms", ""),
+    ):
+        for dialect in ("codesys", "twincat"):
+            found = checked(f"t := {literal};", dialect).problems
+            assert [each.code for each in found] == ([code] if code else []), literal
+        assert checked(f"t := {literal};", "iec").problems == ()
+    for literal in ("DT#1969-12-31-23:59:59", "DT#2106-02-07-06:28:16", "D#2107-01-01"):
+        found = checked(f"ok := {literal} > {literal};", "codesys").problems
+        assert {each.code for each in found} == {"S004"}, literal
+
+
+def test_pack_mode_is_one_of_the_vendors() -> None:
+    text = "{attribute 'pack_mode' := '3'}\nTYPE S : STRUCT a : BYTE; END_STRUCT; END_TYPE\nPROGRAM Main\nVAR s : S; END_VAR\nEND_PROGRAM"
+    found = check_sources(with_dialect({"a.st": text}, "twincat"), MODEL).problems
+    assert [(each.code, each.span.line) for each in found if each.severity is Severity.ERROR] == [("S004", 2)]
+    assert check_sources({"a.st": text}, MODEL).program is not None

@@ -48,8 +48,9 @@ def _duration(type: Elementary, text: str, unit: Unit | None, comma: bool) -> by
             raise ValueError(
                 f"`{text}` is not a TIME: write T#1s500ms, or put the unit after the column's name, as [s]"
             ) from None
-    ns = round(number(text, comma) * UNITS_NS[unit])
-    return parse_value(Elementary("LINT", Kind.INT, type.size), str(ns))
+    step = type.unit or 1  # a controller that counts milliseconds has written no part of one
+    ns = round(number(text, comma) * UNITS_NS[unit] / step) * step
+    return parse_value(type, f"T#{ns}ns")
 
 
 @dataclass(frozen=True, slots=True)
