@@ -126,13 +126,20 @@ class Item:
 
 @node
 class Wire:
-    """`#name : type = value`, or `output => #name`; `loop`: it is read above the line that sets it, so that it keeps its value from
+    """`#name : type = value`, or `output => #name : type`; `loop`: it is read above the line that sets it, so that it keeps its value from
     one evaluation to the next."""
 
     name: str
     type: tree.TypeSpec | None
     loop: bool
     span: Span
+
+
+@node
+class TypedWire(tree.Name):
+    """`#name : type` after `output =>`: a wire that keeps its value says its type unless that is BOOL."""
+
+    type: tree.TypeSpec
 
 
 @node

@@ -1,6 +1,7 @@
 """Function block diagrams -> tree: one box a line, in the order of execution. A bad line is reported and skipped."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TypeVar
 
 from scanbench.syntax import networks, parse_expression, parse_type, tree
@@ -41,7 +42,7 @@ def _of_outputs(item: networks.Item, read: set[str]) -> list[networks.Wire]:
     arguments = item.value.arguments if isinstance(item.value, networks.Function) else ()
     outputs = (networks.wire_at(each) for each in arguments if isinstance(each, tree.Argument))
     return [
-        networks.Wire(each.name, None, each.name.removeprefix(networks.WIRE).upper() in read, each.span)
+        networks.Wire(each.name, each.type if isinstance(each, networks.TypedWire) else None, each.name.removeprefix(networks.WIRE).upper() in read, each.span)
         for each in outputs
         if each is not None
     ]
@@ -168,9 +169,14 @@ def _argument(c: Cursor) -> tree.Argument | networks.Pin:
     if (c.kinds[start] is NAME or c.is_("NOT")) and "=>" in c.texts[start + 1 : start + 3]:
         read = set(c.wires or ())
         output = parse_expression.argument(c)
-        if networks.wire_at(output) is not None:
-            c.wires = read  # it is set here
-        return output
+        wire = networks.wire_at(output)
+        if wire is None:
+            return output
+        c.wires = read  # it is set here
+        if not c.accept(":"):
+            return output
+        typed = networks.TypedWire(wire.name, wire.span, parse_type.type_spec(c, named=False))
+        return replace(output, value=typed, span=c.span_from(start))
     value = _pin(c, None, start)
     return value if isinstance(value, networks.Pin) else tree.Argument(None, False, value, value.span)
 

@@ -75,7 +75,7 @@ DIAGRAMS = [
     ("#a = b;\nt(IN := b, PT := T#1s, Q => #a);", "D001", 5, "`#a` is a wire of line 4 already"),
     ("#a = b;\nEND_NETWORK\nNETWORK\nc := #a;", "T001", 7, "Nothing sets `#a` in this network"),
     ("y := 1;\nEND_NETWORK\nNETWORK\n#a : INT = #a;\nEND_NETWORK\nNETWORK\ny := #a;", "T001", 10, "Nothing sets `#a`"),
-    ("x := MOVE(#e);\nt(IN := b, PT := T#1s, ET => #e);", "T002", 5, "give it to another wire"),
+    ("x := MOVE(#e);\nt(IN := b, PT := T#1s, ET => #e);", "T002", 5, "write `ET => #e : TIME`"),
     ("#a = t;", "T002", 4, "so a wire cannot have it"),
     ("x := b;", "T002", 4, "`x` is INT"),
     ("x + 1;", "S003", 4, "a value alone goes nowhere"),
@@ -88,6 +88,11 @@ DIAGRAMS = [
     ("x := ADD(x, 1)", "S003", 4, "`;` expected at the end of the line"),
     ("x := ADD(IN1 := x, IN2 := 1, OK => #ok);", "T010", 4, "The type of `#ok` is not known here"),
 ]
+
+
+def test_a_loop_that_does_not_say_its_type_is_told_once() -> None:
+    found = problems("NETWORK\ny := #e;\nt(IN := b, PT := T#1s, ET => #e);\nx := MOVE(#e);\nEND_NETWORK")
+    assert [(each.code, each.span.line) for each in found] == [("T002", 5)]
 
 
 @pytest.mark.parametrize(("lines", "code", "line", "text"), DIAGRAMS, ids=[each[0] for each in DIAGRAMS])

@@ -47,6 +47,8 @@ class FunctionBlocks:
                     f"move the line up.",
                     wire.span,
                 )
+        for item in diagram.items:
+            self._untyped_loops(item)
         set_here = {wire for item in diagram.items for wire in _wires_of(item)}
         self._body.unmade.update(self._wires.keys() - set_here)
         for item in diagram.items:
@@ -54,6 +56,24 @@ class FunctionBlocks:
                 self._item(item)
             except Rejected:
                 self._body.unmade.update(_wires_of(item))
+
+    def _untyped_loops(self, item: networks.Item) -> None:
+        """Refuses wires that keep the value of an output and do not say its type, before a line above reads them as BOOL."""
+        for each in item.value.arguments if isinstance(item.value, networks.Function) else ():
+            target = networks.wire_at(each) if isinstance(each, tree.Argument) else None
+            wire = None if target is None else self._wires.get(target.name.upper())
+            if target is None or wire is None or not wire.loop or wire.type is not None:
+                continue
+            assert isinstance(item.value, networks.Function)
+            type = self._output(item.value, each.name or "")
+            if type is not None and type != BOOL:
+                self._body.unmade.add(wire.name.upper())
+                del self._body.scope.wires[wire.name.upper()]
+                self._report.error(
+                    "T002",
+                    f"`{wire.name}` is read above its line, and the output is {type}: write `{each.name} => {wire.name} : {type}`.",
+                    each.span,
+                )
 
     def _item(self, item: networks.Item) -> None:
         if item.leave is not None:
@@ -97,21 +117,19 @@ class FunctionBlocks:
         if isinstance(each, networks.Pin):
             return tree.Argument(each.name, False, self._plain(each, span), each.span)
         if each.output and isinstance(each.value, tree.Name) and each.value.name.startswith(networks.WIRE):
-            type, name = self._output(box, each.name or ""), each.value.name
+            name = each.value.name
             wire = self._wires.get(name.upper())
+            if wire is not None and wire.loop:
+                if name.upper() in self._body.unmade:  # reported
+                    raise Rejected
+                return each
+            stated = each.value.type if isinstance(each.value, networks.TypedWire) else None
+            type = self._output(box, each.name or "") if stated is None else self._body.declarations.type_of(stated)
             if type is None:
                 raise self._report.reject(
                     "T010", f"The type of `{name}` is not known here; write `{name} = ...` below the call.", each.span
                 )
-            if wire is None or not wire.loop:
-                self._code.wire(name, type, each.span)
-            elif type != BOOL:
-                raise self._report.reject(
-                    "T002",
-                    f"`{name}` is read above its line, and the output is {type}: give it to another wire, `#y`, and write "
-                    f"`{name} : {type} = #y;` below the call.",
-                    each.span,
-                )
+            self._code.wire(name, type, each.span)
         return each
 
     def _output(self, box: networks.Function, name: str) -> Type | None:

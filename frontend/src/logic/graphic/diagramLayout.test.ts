@@ -128,6 +128,14 @@ describe("the drawing of a function block diagram", () => {
     expect(from).toEqual(["text", "loop", "nothing"]);
   });
 
+  it("draws a loop through an output that says its type", () => {
+    const [item, box] = drawingOf(["n := #count;", "c(CU := up, PV := 3, CV => #count : INT);"]).elements;
+    expect(item?.inputs.map(({ from }) => from)).toEqual(["loop"]);
+    expect(box?.element.item.outputs.map(({ target, wire, span }) => [target, wire, span.end - span.at])).toEqual([
+      ["#count", "#COUNT", 6],
+    ]);
+  });
+
   it("moves no box past another when one is put in", () => {
     for (const lines of [...Object.values(DIAGRAMS), MANY.slice(0, 12)])
       for (let at = 0; at <= lines.length; at += 1) {

@@ -12,6 +12,7 @@ interface Diagram {
 
 const LEAVE = /^(?:RETURN|(JMP\s+)([\p{L}_][\p{L}\p{N}_]*|\?\?\?))(?:\s+IF\s+([\s\S]+))?$/iu;
 const WIRE = /^(#\s*[\p{L}_][\p{L}\p{N}_]*)\s*(?::([^=]+))?=(?!=)\s*([\s\S]+)$/u;
+const TYPED = /^(#\s*[\p{L}_][\p{L}\p{N}_]*)\s*:/u;
 const ASSIGNED = /^((?:[\p{L}_%]|\?\?\?)[^(]*?)\s*(?::=|\s([SR])\s*=)\s*([\s\S]+)$/iu;
 const CALL = /^((?!NOT\b)[\p{L}_][\p{L}\p{N}_]*(?:\.[\p{L}_][\p{L}\p{N}_]*|\[[^\]]*\])*|\?\?\?)\s*\(/iu;
 const EDGE = /^(NOT\s+)?([RF])_EDGE\s+([\p{L}_#%?(][\s\S]*)$/iu;
@@ -113,8 +114,10 @@ function readArgument(text: string, at: number): { input?: DiagramInput; output?
   const value = named?.[4] ?? text;
   const span = { at: arg.end - value.length, end: arg.end };
   if (named?.[3] === "=>") {
-    const output = { name: named[2] ?? "", negated: named[1] !== undefined, target: value, wire: wireOf(value) };
-    return { output: { ...output, operator: "", span, arg } };
+    // A wire that keeps its value says its type.
+    const target = TYPED.exec(value)?.[1] ?? value;
+    const output = { name: named[2] ?? "", negated: named[1] !== undefined, target, wire: wireOf(target) };
+    return { output: { ...output, operator: "", span: { at: span.at, end: span.at + target.length }, arg } };
   }
   if (named && named[1] === undefined) return { input: { ...readPin(value, span), name: named[2] ?? "", arg } };
   return { input: { ...readPin(text, arg), name: "", arg } };

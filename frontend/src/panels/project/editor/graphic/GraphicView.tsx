@@ -1,4 +1,3 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
 import {
   type ClipboardEvent,
   type KeyboardEvent,
@@ -15,21 +14,12 @@ import { baseName } from "../../../../logic/format/paths";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
 import { PIN } from "../../../../logic/graphic/keys";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
-import {
-  actionOf,
-  type DrawnPart,
-  drawnWith,
-  headOf,
-  heightOf,
-  Sheet,
-  scaleOf,
-  stopsOf,
-} from "../../../../logic/graphic/sheet";
+import { actionOf, type DrawnPart, Sheet, stopsOf } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { ownerOf, pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { boxesNow, loadBoxes } from "../../../../store/graphic/boxes";
-import { showAs, useFit, useViewOf } from "../../../../store/graphic/views";
+import { showAs, useViewOf } from "../../../../store/graphic/views";
 import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useDocuments } from "../../../../store/project/documents";
@@ -57,10 +47,8 @@ import { useChosen } from "./useChosen";
 import { useDrag } from "./useDrag";
 import { useDrawingMenu } from "./useDrawingMenu";
 import { type Cursor, keyOf, useEditing } from "./useEditing";
+import { keepHeadings, placeOf, roomIn, useRows } from "./useRows";
 import { wrongIn } from "./wrong";
-
-/** Marks, number and margins left and right of a drawing. */
-const BESIDE = 22 + 34 + 20 + 18;
 
 const NONE: readonly Twice[] = [];
 const NO_PROBLEMS: readonly Problem[] = [];
@@ -91,9 +79,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const verified = useVerifyRows(({ selected, byIndex }) =>
     selected === null ? null : (byIndex.get(selected) ?? null),
   );
-  const room = Math.max(320, (width ?? 0) - BESIDE);
-  /** What is said above a drawing has to be read without scrolling. */
-  const headRoom = Math.max(160, (width ?? 0) - BESIDE);
+  const { room, headRoom } = roomIn(width ?? 0);
   const measured = width !== null;
   const drawn = useMemo(() => (measured ? parts.current.of(text, room) : []), [text, room, measured]);
   // Its rung may have been taken back, or deleted by somebody else.
@@ -134,33 +120,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const { chosen } = choosing;
   const drag = useDrag({ path, drawn, readOnly, chosen, go, begin, around });
   const { named } = editing;
-  /** The part whose element is being named, as it will be. */
-  const preview = useMemo(() => {
-    const part = named && drawn[named.rung];
-    return part ? drawnWith(part, named.text, room) : null;
-  }, [named, drawn, room]);
-  const shownAt = (index: number) => (named?.rung === index && preview ? preview : drawn[index]);
-  const fit = useFit();
-  const scaleAt = (part: DrawnPart) => (fit ? scaleOf(part, room) : 1);
-  const headAt = (index: number, part: DrawnPart) => {
-    const written = drawn[index];
-    return headOf(part, headRoom, (written && actionOf(drawn, written)?.name) ?? null);
-  };
-  const heightAt = (index: number) => {
-    const part = shownAt(index);
-    return part ? heightOf(part, headAt(index, part).height, scaleAt(part)) : 0;
-  };
-  const virtual = useVirtualizer({
-    count: drawn.length,
-    getScrollElement: () => sheet.current,
-    estimateSize: heightAt,
-    overscan: 2,
-  });
-  // Most edits change no height: then there is nothing to place again.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  const heights = useMemo(() => drawn.map((_, index) => heightAt(index)).join(), [drawn, preview, fit, room, headRoom]);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: it measures the heights
-  useLayoutEffect(() => virtual.measure(), [heights]);
+  const { virtual, preview, rowAt } = useRows({ drawn, named, width: width ?? 0, sheet });
 
   const target = useNavigation((navigation) => navigation.place);
   const turn = useRef(target?.turn);
@@ -351,7 +311,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const kind = cursorPart?.kind ?? "rung";
   const wrongHere = cursorPart ? wrongIn(cursorPart, path, problems) : [];
   const wrongAtCursor = wrongHere.find(({ place }) => place === cursor.place.join(".")) ?? null;
-  const active = stopsOf(shownAt(cursor.rung)).find((each) => sameElement(each.place, cursor.place));
+  const active = stopsOf(rowAt(cursor.rung)?.part).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">
       <div
@@ -374,13 +334,16 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         onPointerUp={drag.onPointerUp}
         onPointerLeave={drag.onPointerLeave}
         onDoubleClick={onDoubleClick}
+        onScroll={(event) => keepHeadings(event.currentTarget)}
         data-pane="ladder"
       >
         <div style={{ height: virtual.getTotalSize(), position: "relative" }}>
           {virtual.getVirtualItems().map((item) => {
             const rung = drawn[item.index];
-            const part = shownAt(item.index);
-            if (!rung || !part) return null;
+            const row = rowAt(item.index);
+            if (!rung || !row) return null;
+            const { part, head, scale } = row;
+            const open = named?.rung === item.index ? named : null;
             const action = actionOf(drawn, rung);
             const pou = pouOf(rung);
             return (
@@ -388,27 +351,27 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                 key={item.key}
                 data-index={item.index}
                 className="netplace"
-                style={{ transform: `translateY(${item.start}px)`, height: item.size }}
+                style={placeOf(row, item.start, item.size, open !== null)}
               >
                 <PartRow
                   path={path}
                   part={part}
                   number={item.index + 1}
-                  head={headAt(item.index, part)}
+                  head={head}
                   room={headRoom}
-                  scale={scaleAt(part)}
+                  scale={scale}
                   action={action?.name ?? null}
                   pou={pou}
                   id={`${id}${item.index}`}
                   cursor={cursor.rung === item.index ? cursor.place : null}
                   field={
-                    named && named.rung === item.index ? (
+                    open ? (
                       <ElementField
                         path={path}
                         written={rung}
                         part={part}
-                        scale={scaleAt(part)}
-                        named={named}
+                        scale={scale}
+                        named={open}
                         around={around}
                         onTake={takeName}
                         onLeave={leave}
