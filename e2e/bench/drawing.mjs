@@ -8,6 +8,8 @@ import { chromium } from '@playwright/test';
 import { withServer } from './server.mjs';
 
 const [RUNGS, CONTACTS, SECONDS, EDITS, TURNS] = [500, 11, 5, 20, 3];
+/** Of scrolling, in pixels a second. */
+const SPEED = 3000;
 const NAMES = Array.from({ length: 300 }, (_, index) => `x${index}`);
 
 /** The same numbers each time. */
@@ -47,17 +49,7 @@ async function main(address) {
   await page.addInitScript((id) => localStorage.setItem('scanbench.instance', JSON.stringify(id)), instance);
   await page.goto(address);
   const cdp = await page.context().newCDPSession(page);
-  await cdp.send('Performance.enable');
-  /** ms of processor time of the main thread: what else runs on the machine does not count, as it would in `TaskDuration`. */
-  const busy = async () => {
-    const { metrics } = await cdp.send('Performance.getMetrics');
-    return 1000 * (metrics.find(({ name }) => name === 'ThreadTime')?.value ?? Number.NaN);
-  };
-  const spent = async (work) => {
-    const before = await busy();
-    await work();
-    return (await busy()) - before;
-  };
+  const spent = await spentBy(cdp);
   const item = page.getByRole('treeitem', { name: /^Ladder/ }).first();
   await item.waitFor();
   // Without the drawing the page is busy, too: that is taken off.
@@ -80,8 +72,9 @@ async function main(address) {
   });
   await page.waitForTimeout(2000);
   const live = await perSecond(page, spent);
-  const scrolled = await scroll(page, sheet, spent);
+  const scrolled = await scroll(page, cdp, sheet, spent);
   const edit = await edits(page, sheet, browser);
+  const plain = await plainScroll(browser);
   const say = (what, value, unit, most = '') =>
     console.log(`${what.padEnd(50)}${value.toFixed(1).padStart(8)} ${unit.padEnd(5)}${most}`);
   console.log(`load of the machine ${loadavg()[0]?.toFixed(1)}, of ${cpus().length} processors`);
@@ -91,10 +84,26 @@ async function main(address) {
   say('a second live, above that', (live - idle) / 10, '%', 'at most 10');
   say('a second of scrolling, live', scrolled.busy / 10, '%');
   say('frames while scrolling', scrolled.rate, '/s', '60 on a quiet machine');
+  say('frames while plain text is scrolled', plain.rate, '/s');
+  say('of those frames the drawing has', (100 * scrolled.rate) / plain.rate, '%');
   say('a name changed: its network drawn again', edit.network, 'ms', 'at most 5');
   say('the whole way of a key, until the frame with it', edit.drawn, 'ms');
   say('in the quarter of a second after it', edit.after, 'ms');
   await browser.close();
+}
+
+/** What measures the ms of processor time of the main thread: what else runs on the machine does not count, as it would in `TaskDuration`. */
+async function spentBy(cdp) {
+  await cdp.send('Performance.enable');
+  const busy = async () => {
+    const { metrics } = await cdp.send('Performance.getMetrics');
+    return 1000 * (metrics.find(({ name }) => name === 'ThreadTime')?.value ?? Number.NaN);
+  };
+  return async (work) => {
+    const before = await busy();
+    await work();
+    return (await busy()) - before;
+  };
 }
 
 /** ms of the main thread in a second. */
@@ -102,9 +111,9 @@ async function perSecond(page, spent) {
   return (await spent(() => page.waitForTimeout(SECONDS * 1000))) / SECONDS;
 }
 
-async function scroll(page, sheet, spent) {
+/** Scrolls for some seconds, the wheel turned by the browser itself: a round trip for each turn would be measured, too. */
+async function scroll(page, cdp, sheet, spent) {
   const box = await sheet.boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   let rate = 0;
   const all = await spent(async () => {
     const frames = page.evaluate(
@@ -121,11 +130,28 @@ async function scroll(page, sheet, spent) {
         }),
       SECONDS,
     );
-    const end = Date.now() + SECONDS * 1000;
-    while (Date.now() < end) await page.mouse.wheel(0, 60);
+    const turned = cdp.send('Input.synthesizeScrollGesture', {
+      x: box.x + box.width / 2,
+      y: box.y + box.height / 2,
+      yDistance: -SPEED * SECONDS,
+      speed: SPEED,
+      gestureSourceType: 'mouse',
+    });
     rate = await frames;
+    await turned;
   });
   return { busy: all / SECONDS, rate };
+}
+
+/** The same over rows of nothing but text, in a window of its own: what this browser on this machine reaches meanwhile. */
+async function plainScroll(browser) {
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  const rows = Array.from({ length: RUNGS }, (_, index) => `<p style="height:120px">Rung ${index}</p>`).join('');
+  await page.setContent(`<div id="sheet" style="height:760px;overflow:auto">${rows}</div>`);
+  const cdp = await page.context().newCDPSession(page);
+  const found = await scroll(page, cdp, page.locator('#sheet'), await spentBy(cdp));
+  await page.close();
+  return found;
 }
 
 /**

@@ -42,7 +42,12 @@ def _of_outputs(item: networks.Item, read: set[str]) -> list[networks.Wire]:
     arguments = item.value.arguments if isinstance(item.value, networks.Function) else ()
     outputs = (networks.wire_at(each) for each in arguments if isinstance(each, tree.Argument))
     return [
-        networks.Wire(each.name, each.type if isinstance(each, networks.TypedWire) else None, each.name.removeprefix(networks.WIRE).upper() in read, each.span)
+        networks.Wire(
+            each.name,
+            each.type if isinstance(each, networks.TypedWire) else None,
+            each.name.removeprefix(networks.WIRE).upper() in read,
+            each.span,
+        )
         for each in outputs
         if each is not None
     ]

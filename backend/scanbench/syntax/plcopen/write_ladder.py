@@ -109,9 +109,11 @@ class LadderWriter:
         if each.sends:
             self._sent[name] = power
             return []
-        if power != [self.rail]:
-            raise CannotWrite(f"the link #{each.name} after contacts")
-        return self._sent.get(name, [])
+        sent = self._sent.get(name, [])
+        if power == [self.rail] or not sent:
+            return sent
+        id = self._objects.block("AND", "", [("IN1", power, "", False), ("IN2", sent, "", False)], {"OUT": False})
+        return [(id, "OUT")]
 
     def _box(self, each: networks.Box, power: list[End]) -> list[End]:
         objects, callee = self._objects, text(each.callee)
@@ -134,10 +136,23 @@ class LadderWriter:
             outputs.negated[result] = False
         if each.result is not None:
             outputs.variables.append((result, text(each.result), False))
-        self._shared |= outputs.shared and any(name.upper() == "EN" for name, *_ in inputs)
+        enabled = any(name.upper() == "EN" for name, *_ in inputs)
+        self._shared |= outputs.shared and enabled
+        called = next((name for name in outputs.negated if name.upper() == "ENO"), "ENO")
+        if enabled and outputs.turned and outputs.negated.setdefault(called, False):
+            raise CannotWrite(
+                f"the output {each.output} of a box with a negated ENO, which goes on as it is and negated to a link"
+            )
         id = objects.block(block or callee, callee if block else "", inputs, outputs.negated)
         for name, variable, negated in outputs.variables:
             objects.result(variable, [(id, name)], negated=negated)
         for name, link in outputs.wires:
             self._sent[link.removeprefix(networks.WIRE).upper()] = [(id, name)]
+        for link in outputs.turned:
+            if enabled:  # FALSE where the box is not called
+                pins = [("IN1", [(id, called)], "", False), ("IN2", [(id, each.output)], "", True)]
+                turned = objects.block("AND", "", pins, {"OUT": False})
+            else:
+                turned = objects.block("NOT", "", [("IN", [(id, each.output)], "", False)], {"OUT": False})
+            self._sent[link.removeprefix(networks.WIRE).upper()] = [(turned, "OUT")]
         return [(id, each.output)] if each.output else power

@@ -148,6 +148,8 @@ class Outputs:
     variables: list[tuple[str, str, bool]] = field(default_factory=list)
     """By output; and whether it is negated on the way, where the output itself is not."""
     wires: list[tuple[str, str]] = field(default_factory=list)
+    turned: list[str] = field(default_factory=list)
+    """Links that the output which goes on as power goes to negated."""
     power: str = ""
     """The output whose value goes on as power, '' if none does. That may be taken besides."""
 
@@ -165,7 +167,8 @@ class Outputs:
             return
         shared = bool(self.power) and name.upper() == self.power.upper()
         if shared and argument.negated and is_wire(value):
-            raise CannotWrite(f"the output {name} of a box, which goes on as it is and negated to a link")
+            self.turned.append(value.name)
+            return
         if shared:
             name, self.shared = self.power, True
         self.negated[name] = argument.negated and not shared

@@ -24,8 +24,8 @@ KINDS = {"ladder": ladder.drawn, "diagram": diagrams.drawn, "chart": charts.draw
 EACH = 30
 BATCHES = amount(34, 1)
 """Of 30 drawings for each kind and form."""
-LEFT = {"ladder": 0.9, "diagram": 0.95, "chart": 0.0, "mixed": 0.8}
-"""The part of the drawings that may be left out at most: links after contacts, loops, what IEC 61131-10 has no form for."""
+LEFT = {"ladder": 0.85, "diagram": 0.95, "chart": 0.0, "mixed": 0.8}
+"""The part of the drawings that may be left out at most: loops, outputs of a box with EN that a network cannot keep, what IEC 61131-10 has no form for."""
 
 
 class Running:
@@ -106,3 +106,24 @@ def test_drawings_compute_the_same_when_they_are_read_again(kind: str, form: For
         found, left = difference(drawn, form)
     assert not found, f"{found}\n{explained(kind, notes, form)}"
     assert left <= LEFT[kind] * EACH or (kind == "chart" and form is Form.PART10), f"{left} are left out"
+
+
+def test_nearly_half_of_the_ladders_are_written() -> None:
+    random = Random("round trip 0")
+    drawn = [ladder.drawn(noted(random, [])) for _ in range(120)]
+    left = write_project("Random", {"main.st": program_of(drawn)}).left_out
+    assert len({each.split(",")[0] for each in left}) <= 66, left
+
+
+def test_a_link_after_contacts_and_one_from_a_negated_output_are_written() -> None:
+    """Both are read again as a network."""
+    source = (
+        "FUNCTION_BLOCK F0\nVAR_INPUT a, b, c : BOOL; END_VAR\nVAR k : CTU; q, r : BOOL; END_VAR\n"
+        "RUNG\n    < k(EN := < [a] >, CU := ~, R := b, PV := 2, NOT Q => #low).Q (q) | [c] #low (r) >\nEND_RUNG\n"
+        "END_FUNCTION_BLOCK\n"
+    )
+    written = write_project("Random", {"main.st": source})
+    assert written.left_out == []
+    text = read_project(written.data).files["F0.st"]
+    assert "NETWORK" in text
+    assert "NOT #" in text

@@ -190,17 +190,17 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   }
 
   const take = (what: "copy" | "cut", at: Cursor) => (chosen ? choosing[what]() : editing[what](at));
-  const context = useDrawingMenu({
-    ...{ path, drawn, readOnly, sheet, press, take, isChosen: choosing.holds, can: editing.can },
-    severalAt: choosing.severalAt,
-    go: (to) => {
-      choosing.clear();
-      setCursor(to);
+  const idOf = ({ rung, place }: Cursor) => `${id}${rung}-${place.join(".")}`;
+  const context = useDrawingMenu(
+    { path, drawn, readOnly, sheet, idOf },
+    {
+      ...{ choosing, editing, press, take },
+      go: (to) => {
+        choosing.clear();
+        setCursor(to);
+      },
     },
-    idOf: ({ rung, place }) => `${id}${rung}-${place.join(".")}`,
-    paste: editing.put,
-    onRefused: () => editing.refuse("graphic.menu.unpasted"),
-  });
+  );
 
   function onKeyDown(event: KeyboardEvent): void {
     if (!event.metaKey && doesKey(event)) event.preventDefault();

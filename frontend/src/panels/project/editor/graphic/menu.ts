@@ -6,6 +6,7 @@ import { type TextKey, t } from "../../../../text";
 import type { IconName } from "../../../../ui/Icon";
 import type { MenuItem } from "../../../../ui/Menu";
 import { FORCE, type Forcing, operandAt } from "./operand";
+import { DELETE, INSERTS, keyText, MODES, NAME, NEXT, type Tool } from "./tools";
 
 interface Entry {
   key: string;
@@ -15,37 +16,7 @@ interface Entry {
   shown?: string;
 }
 
-const NAME: Entry = { key: "Enter", word: "graphic.menu.name" };
-const MODE: readonly Entry[] = [
-  { key: "!", word: "graphic.menu.negate" },
-  { key: "e", word: "graphic.menu.edge" },
-];
-const INSERT: Record<DrawnPart["kind"], readonly Entry[]> = {
-  rung: [
-    { key: "c", word: "graphic.menu.contact" },
-    { key: "/", word: "graphic.menu.closed" },
-    { key: "w", word: "graphic.menu.below" },
-    { key: "o", word: "graphic.menu.coil" },
-    { key: "s", word: "graphic.menu.set" },
-    { key: "r", word: "graphic.menu.reset" },
-    { key: "f", word: "graphic.menu.box" },
-    { key: "Ctrl+I", word: "graphic.menu.rung" },
-  ],
-  network: [
-    { key: "f", word: "graphic.menu.box" },
-    { key: "a", word: "graphic.menu.assign" },
-    { key: "+", word: "graphic.menu.input" },
-    { key: "j", word: "graphic.menu.jump" },
-    { key: "Ctrl+I", word: "graphic.menu.network" },
-  ],
-  chart: [
-    { key: "s", word: "graphic.menu.step" },
-    { key: "a", word: "graphic.menu.action" },
-    { key: "v", word: "graphic.menu.alternative" },
-    { key: "p", word: "graphic.menu.parallel" },
-    { key: "j", word: "graphic.menu.jump" },
-  ],
-};
+const said = ({ what, ...tool }: Tool): Entry => ({ ...tool, word: `graphic.menu.${what}` });
 
 const OFF: Entry = { key: "Ctrl+/", word: "graphic.menu.off" };
 const HEAD: readonly Entry[] = [
@@ -59,7 +30,7 @@ const CLIPBOARD: readonly Entry[] = [
   { key: "Ctrl+X", word: "graphic.menu.cut" },
   COPY,
   { key: "Ctrl+V", word: "graphic.menu.paste" },
-  { key: "Delete", shown: "Del", word: "graphic.menu.delete", icon: "trash" },
+  { ...said(DELETE), icon: "trash" },
 ];
 
 /** Where no element is meant: as it is said of the whole part. */
@@ -127,7 +98,7 @@ function itemsOf(groups: readonly (readonly Entry[])[], press: Can["press"], cou
     entries.map(({ key, word, icon, shown }, index) => ({
       label: t(word, { count }),
       ...(icon ? { icon } : {}),
-      hint: shown ?? (key.length === 1 ? key.toUpperCase() : key),
+      hint: keyText(shown === undefined ? { key } : { key, shown }),
       separated: index === 0 && groups.slice(0, group).some((before) => before.length > 0),
       onSelect: () => press(key),
     })),
@@ -145,9 +116,10 @@ function editsOfSeveral({ of }: Several): Entry[][] {
 
 function editsOf(part: DrawnPart, place: Place, can: Can["can"]): Entry[][] {
   const at = place.length > 0;
-  const modes = at && part.kind !== "chart" ? MODE : [];
-  const groups = [at ? [NAME, ...modes] : [], INSERT[part.kind], CLIPBOARD, !at && part.kind !== "chart" ? HEAD : []];
-  const said = (entry: Entry) => (at ? entry : (WHOLE[entry.word]?.[part.kind] ?? entry));
+  const first = at ? [NAME, ...MODES[part.kind]].map(said) : [];
+  const inserts = [...INSERTS[part.kind], ...NEXT[part.kind]].map(said);
+  const groups = [first, inserts, CLIPBOARD, !at && part.kind !== "chart" ? HEAD : []];
+  const meant = (entry: Entry) => (at ? entry : (WHOLE[entry.word]?.[part.kind] ?? entry));
   const means = ({ key, word }: Entry) => (at || !OF_ELEMENTS.includes(word)) && (key.startsWith("Ctrl+") || can(key));
-  return groups.map((entries) => entries.map(said).filter(means));
+  return groups.map((entries) => entries.map(meant).filter(means));
 }

@@ -6,53 +6,42 @@ import { toggleBreakpointHere } from "../../../../store/debug/debugKeys";
 import { t } from "../../../../text";
 import { useMenu } from "../../../../ui/Menu";
 import { cursorAt } from "./find";
-import { menuOf, type Several } from "./menu";
+import { menuOf } from "./menu";
 import { type Forcing, forcingAt, NO_FORCING } from "./operand";
-import type { Cursor } from "./useEditing";
+import type { useChosen } from "./useChosen";
+import type { Cursor, useEditing } from "./useEditing";
 
-interface Asked {
+interface Drawing {
   path: string;
   drawn: readonly DrawnPart[];
   readOnly: boolean;
   sheet: { current: HTMLElement | null };
-  isChosen: (at: Cursor) => boolean;
-  /** What is chosen together with a place; null where it is alone. */
-  severalAt: (at: Cursor) => Several | null;
-  go: (to: Cursor) => void;
-  /** The id of the element of the cursor. */
+  /** The id of the element of a cursor. */
   idOf: (cursor: Cursor) => string;
-  /** Whether a key means something there. */
-  can: (key: string, at: Cursor) => boolean;
+}
+
+interface Does {
+  choosing: Pick<ReturnType<typeof useChosen>, "holds" | "severalAt">;
+  editing: Pick<ReturnType<typeof useEditing>, "can" | "put" | "refuse">;
+  go: (to: Cursor) => void;
   /** What a key does; false where it does nothing. */
   press: (key: string, at: Cursor) => boolean;
   /** The text of what is copied or cut; null where there is nothing. */
   take: (what: "copy" | "cut", at: Cursor) => string | null;
-  paste: (at: Cursor, text: string) => void;
-  /** The browser does not give its clipboard. */
-  onRefused: () => void;
 }
 
-export function useDrawingMenu({
-  path,
-  drawn,
-  readOnly,
-  sheet,
-  isChosen,
-  severalAt,
-  go,
-  idOf,
-  can,
-  press,
-  ...does
-}: Asked) {
+export function useDrawingMenu({ path, drawn, readOnly, sheet, idOf }: Drawing, does: Does) {
+  const { choosing, editing, go, press, take } = does;
   const { open, menu } = useMenu(t("graphic.menu"));
+  /** The browser does not give its clipboard. */
+  const refused = () => editing.refuse("graphic.menu.unpasted");
 
   function show(at: Cursor, point: { x: number; y: number }): void {
     const part = drawn[at.rung];
     const opened = (forcing: Forcing) => {
       const items = menuOf(part, at.place, {
-        ...{ readOnly, several: severalAt(at), forcing, press: pressAt(at) },
-        can: (key) => can(key, at),
+        ...{ readOnly, several: choosing.severalAt(at), forcing, press: pressAt(at) },
+        can: (key) => editing.can(key, at),
       });
       if (items.length > 0) open(items, point);
     };
@@ -63,7 +52,7 @@ export function useDrawingMenu({
     return (key) => {
       // The keys act where the drawing has the focus; a field that opens takes it then.
       sheet.current?.focus();
-      if (key === "Ctrl+C" || key === "Ctrl+X" || key === "Ctrl+V") clip(key, at).catch(does.onRefused);
+      if (key === "Ctrl+C" || key === "Ctrl+X" || key === "Ctrl+V") clip(key, at).catch(refused);
       else if (key === "F9") toggleBreakpointHere();
       else press(key, at);
     };
@@ -71,11 +60,11 @@ export function useDrawingMenu({
 
   /** What a key does by an event of the browser's, which no menu can give. */
   async function clip(key: "Ctrl+C" | "Ctrl+X" | "Ctrl+V", at: Cursor): Promise<void> {
-    if (key === "Ctrl+V") return does.paste(at, await navigator.clipboard.readText());
-    const text = does.take("copy", at);
+    if (key === "Ctrl+V") return void editing.put(at, await navigator.clipboard.readText());
+    const text = take("copy", at);
     if (text === null) return;
     await navigator.clipboard.writeText(text);
-    if (key === "Ctrl+X") does.take("cut", at);
+    if (key === "Ctrl+X") take("cut", at);
   }
 
   function onContextMenu(event: MouseEvent): void {
@@ -84,7 +73,7 @@ export function useDrawingMenu({
     const at = cursorAt(drawn, event);
     if (!at) return;
     // What was chosen stays where the click is in it: the menu is of all that.
-    if (!isChosen(at)) go(at);
+    if (!choosing.holds(at)) go(at);
     show(at, { x: event.clientX, y: event.clientY });
   }
 
