@@ -14,6 +14,8 @@ from scanbench.syntax.plcopen.grouping import conflict
 
 RAIL, END = "rail", "end"
 SIGNS = {"EQ": "=", "NE": "<>", "LT": "<", "LE": "<=", "GT": ">", "GE": ">="}
+OPERATORS = frozenset(("AND", "OR", "XOR", "NOT", "MOD"))
+"""Words of the language, which are no boxes in a rung."""
 LADDER = frozenset(("contact", "coil", "block", "inVariable", "outVariable", "jump", "return"))
 _MARK = re.compile("\0(.*?)\1")
 """The object that the text before it is of, as long as a rung is being made."""
@@ -193,6 +195,8 @@ class Rung:
         return "RETURN" if each.kind == "return" else self._box(each, power)
 
     def _box(self, each: Thing, power: Pin | None) -> str:
+        if not each.instance and each.name.upper() in OPERATORS:
+            raise NoLadder
         arguments = []
         for pin in each.inputs:
             own = (each.id, pin.name) in self._own

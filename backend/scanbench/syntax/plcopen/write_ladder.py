@@ -17,6 +17,8 @@ class LadderWriter:
         self._known = known
         self._rail: End | None = None
         self._sent: dict[str, list[End]] = {}
+        self._turned: dict[str, tuple[str, str, str]] = {}
+        """Links of negated outputs that nothing has received so far: see `_turn`."""
         self._shared = False
         """Whether an output of a box with EN goes on as power, and is taken by a variable as well."""
 
@@ -31,7 +33,7 @@ class LadderWriter:
             raise CannotWrite("a rung that is switched off")
         self._objects.next_network()
         self._objects.head(rung.label, rung.span)
-        self._sent, self._shared = {}, False
+        self._sent, self._turned, self._shared = {}, {}, False
         self._path(rung.path, [self.rail])
         if self._shared and not self._is_ladder():
             raise CannotWrite(
@@ -109,11 +111,20 @@ class LadderWriter:
         if each.sends:
             self._sent[name] = power
             return []
+        if name in self._turned:
+            self._sent[name] = [self._turn(*self._turned.pop(name))]
         sent = self._sent.get(name, [])
         if power == [self.rail] or not sent:
             return sent
         id = self._objects.block("AND", "", [("IN1", power, "", False), ("IN2", sent, "", False)], {"OUT": False})
         return [(id, "OUT")]
+
+    def _turn(self, id: str, output: str, called: str) -> End:
+        """An output, negated; `called`: the output of the box that tells that it was, else this is FALSE."""
+        if called:
+            pins = [("IN1", [(id, called)], "", False), ("IN2", [(id, output)], "", True)]
+            return self._objects.block("AND", "", pins, {"OUT": False}), "OUT"
+        return self._objects.block("NOT", "", [("IN", [(id, output)], "", False)], {"OUT": False}), "OUT"
 
     def _box(self, each: networks.Box, power: list[End]) -> list[End]:
         objects, callee = self._objects, text(each.callee)
@@ -149,10 +160,5 @@ class LadderWriter:
         for name, link in outputs.wires:
             self._sent[link.removeprefix(networks.WIRE).upper()] = [(id, name)]
         for link in outputs.turned:
-            if enabled:  # FALSE where the box is not called
-                pins = [("IN1", [(id, called)], "", False), ("IN2", [(id, each.output)], "", True)]
-                turned = objects.block("AND", "", pins, {"OUT": False})
-            else:
-                turned = objects.block("NOT", "", [("IN", [(id, each.output)], "", False)], {"OUT": False})
-            self._sent[link.removeprefix(networks.WIRE).upper()] = [(turned, "OUT")]
+            self._turned[link.removeprefix(networks.WIRE).upper()] = (id, each.output, called if enabled else "")
         return [(id, each.output)] if each.output else power
