@@ -22,7 +22,7 @@ interface Asked {
   sheet: RefObject<HTMLDivElement | null>;
 }
 
-export interface Row {
+interface Row {
   part: DrawnPart;
   scale: number;
   head: Heading;
