@@ -79,6 +79,7 @@ class Allowance(Enum):
     ADDRESS_OPERATOR = auto()
     MIXED_ARGUMENTS = auto()
     COUNTER_WRITES = auto()
+    FOR_ENDS = auto()
     OPEN_REFERENCES = auto()
     OPEN_INPUTS = auto()
     SETTING_LISTS = auto()

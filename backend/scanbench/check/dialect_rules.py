@@ -339,6 +339,11 @@ RULES: dict[Allowance, Rule] = {
         "a number has the type of the bit string beside it",
         "`b XOR WORD#16#1FF`",
     ),
+    Allowance.FOR_ENDS: Rule(
+        "the end value and the step of a FOR loop that are computed for each round",
+        "they are computed once, as the loop begins",
+        "`last := n;` before it, and `FOR i := 1 TO last`",
+    ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",
         "a start value is a constant",

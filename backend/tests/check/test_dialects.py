@@ -291,7 +291,7 @@ APART = {
     Allowance.WRAPPED_REALS, Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_TYPES,
     Allowance.SIGNED_TEXTS, Allowance.TRUE_TEXTS, Allowance.TEXT_NUMBERS, Allowance.BLOCK_MOVES, Allowance.VARIANTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
-    Allowance.GENERIC_CONSTANTS, Allowance.HALVES_AWAY,
+    Allowance.GENERIC_CONSTANTS, Allowance.HALVES_AWAY, Allowance.FOR_ENDS,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
     Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES, Allowance.ACTION_ARGUMENTS,
     Allowance.OUTSIDE_PARTS, Allowance.TEXT_CASES, Allowance.RECURSION, Allowance.OPEN_REFERENCES,
@@ -335,6 +335,19 @@ def test_a_number_beside_a_smaller_signed_integer_needs_a_type() -> None:
     assert "`DINT#65536`" in found[0].message
     assert checked("d := i OR DINT#65536;", "codesys").program is not None
     assert checked("d := i OR 16#1_0000;", "rockwell").program is not None
+
+
+def test_an_end_value_that_the_loop_changes_is_told_where_it_is_computed_again() -> None:
+    for body in ("FOR i := 1 TO j DO j := j - 1; END_FOR", "FOR i := 1 TO 10 - i DO d := d + 1; END_FOR"):
+        assert checked(body, "iec").problems == ()
+        for name in ("codesys", "twincat"):
+            found = checked(body, name).problems
+            assert [(each.code, each.span.line, each.severity) for each in found] == [("W006", LINE, Severity.WARNING)]
+            assert "`last := n;`" in found[0].message
+    assert checked("FOR i := 1 TO j DO d := d + 1; unit.reset(); END_FOR", "codesys").problems == ()
+    text = "PROGRAM Main\nVAR i, n : LINT; END_VAR\nFOR i := 1 TO n DO n := n - 1; END_FOR\nEND_PROGRAM\n"
+    wide = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL).problems
+    assert [(each.code, each.span.line) for each in wide] == [("X001", 3)]
 
 
 def test_what_zeros_are_put_before_is_not_guessed() -> None:

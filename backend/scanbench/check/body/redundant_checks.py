@@ -157,9 +157,11 @@ class _Needless:
 
     def loop(self, node: For | While | Repeat) -> Stmt:
         if isinstance(node, For):
-            start, end, step = self.expr(node.start), self.expr(node.end), self.expr(node.step)
+            start = self.expr(node.start)
+            self.facts = {} if node.again else self.facts
+            end, step = self.expr(node.end), self.expr(node.step)
             self.facts = {}
-            given, inside = ((), ()) if self._tries or node.follows else self.versions(node)
+            given, inside = ((), ()) if self._tries or node.follows or node.again else self.versions(node)
             made: Stmt = replace(
                 node, start=start, end=end, step=step, body=self.block(node.body), given=given, inside=inside
             )

@@ -15,6 +15,7 @@ from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
+from scanbench.check.body.loop_ends import computed_again
 from scanbench.check.body.spelled_out import spelled_out
 from scanbench.check.body.subrange_checks import arriving, into
 from scanbench.check.body.text_cases import TEXT_CASE, as_comparisons, is_text
@@ -238,8 +239,9 @@ def _for(body: Body, node: tree.ForStatement) -> Stmt:
         if not isinstance(step, Const):
             told = "The step of a FOR whose counter is assigned in the loop is a constant."
             raise body.report.reject("T008", told, (node.step or node.end).span)
-    leaves = follows or _leaves(inner, outer=True)
-    return For(counter, start, end, step, inner, leaves, trap, node.span, limits, follows=follows)
+    again = computed_again(body, counter, end, step, inner, node.end.span)
+    leaves = follows or again or _leaves(inner, outer=True)
+    return For(counter, start, end, step, inner, leaves, trap, node.span, limits, follows=follows, again=again)
 
 
 def _counted(body: Body, counter: Place, node: tree.ForStatement) -> Place:

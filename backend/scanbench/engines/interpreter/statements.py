@@ -300,6 +300,8 @@ class Statements(Expressions):
         return loop
 
     def _for(self, node: For) -> Body:
+        if node.again:
+            return self._compared(node)
         start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
         store, spend = self.places.write(node.variable), self._spender(node.trap)
         body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
@@ -330,6 +332,43 @@ class Statements(Expressions):
                 now = counter if left is None else left(instance)
                 assert isinstance(now, int)
                 counter = now + by
+            store(instance, min(max(wrap(counter), low), high))
+            return GO_ON
+
+        return loop
+
+    def _compared(self, node: For) -> Body:
+        """A FOR that computes its end and step for each round."""
+        start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
+        store, read, spend = self.places.write(node.variable), self.places.read(node.variable), self._spender(node.trap)
+        body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
+        type = node.variable.type
+        assert isinstance(type, Elementary)
+        wrap, (low, high) = arithmetic.wrapper(type), node.bounds or bounds(type)
+
+        def loop(instance: int) -> int:
+            counter, rounds = start(instance), 0
+            while True:
+                assert isinstance(counter, int)
+                store(instance, wrap(counter))
+                last, by = end(instance), step(instance)
+                assert isinstance(last, int)
+                assert isinstance(by, int)
+                if by == 0 or (counter > last if by > 0 else counter < last):
+                    break
+                rounds += 1
+                spend(1)
+                how = body(instance)
+                if how == EXIT:
+                    return GO_ON
+                if how >= RETURN:
+                    return how
+                more, now = step(instance), read(instance) if node.follows else counter
+                assert isinstance(more, int)
+                assert isinstance(now, int)
+                counter = now + more
+            if rounds == 0:
+                none(instance)
             store(instance, min(max(wrap(counter), low), high))
             return GO_ON
 

@@ -123,6 +123,9 @@ def for_loop(body: Body, loop: For) -> None:
 def _for(body: Body, loop: For) -> None:
     """FOR: counts in 64 bits, so that narrower counters need no care at the ends of their range."""
     type = elementary(loop.variable.type)
+    if loop.again:
+        _compared(body, loop, type)
+        return
     start, end = body.scalar(loop.start), body.scalar(loop.end)
     step = body.scalar(loop.step)
     by = int(loop.step.value) if isinstance(loop.step, Const) and not isinstance(loop.step.value, bytes) else 0
@@ -218,7 +221,8 @@ def _round(body: Body, loop: For, counter: str, inner: tuple[int, int], leave: t
     value = _counter(body, loop, counter, inner)
     if loop.exits:
         take(body, "1", loop.trap)
-    _put(body, place, type, value)
+    if not loop.again:
+        _put(body, place, type, value)
     body.unit.flavour.goes(body, loop, 0)
     outer = body.counters
     written = body.unit.effects.written(loop.body)
@@ -312,5 +316,37 @@ def _count_down(body: Body, loop: For, parts: tuple[str, str, str, str]) -> None
     final = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
     body.unit.flavour.ends(body, loop)
     _store_counter(body, loop, final, type)
+    text.go(after)
+    text.begin(after)
+
+
+def _compared(body: Body, loop: For, type: Elementary) -> None:
+    """End and step are computed for each round: a counter of up to 32 bits."""
+    text = body.text
+    first = widened(body, body.scalar(loop.start), type)
+    before, head, do, left, latch = text.block, text.name("for"), text.name("do"), text.name("left"), text.name("next")
+    done, after, next_value = text.name("done"), text.name("after"), f"%{text.name('n')}"
+    text.go(head)
+    text.begin(head)
+    counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
+    _put(body, loop.variable, type, _narrow(body, counter, type, "", bounds(type)))
+    last, step = (widened(body, body.scalar(each), type) for each in (loop.end, loop.step))
+    up, moves = text.op(f"icmp sgt i64 {step}, 0"), text.op(f"icmp ne i64 {step}, 0")
+    upward, downward = (text.op(f"icmp {order} i64 {counter}, {last}") for order in ("sle", "sge"))
+    within_end = text.op(f"select i1 {up}, i1 {upward}, i1 {downward}")
+    text.choose(text.op(f"and i1 {moves}, {within_end}"), do, done)
+    text.begin(do)
+    _round(body, loop, counter, bounds(type), (after, left))
+    text.go(left)
+    text.begin(left)
+    more = widened(body, body.scalar(loop.step), type)
+    reached = widened(body, load(body, loop.variable), type) if loop.follows else counter
+    text.go(latch)
+    text.begin(latch)
+    text.do(f"{next_value} = add nsw i64 {reached}, {more}")
+    text.go(head)
+    text.begin(done)
+    body.unit.flavour.ends(body, loop)
+    _store_counter(body, loop, counter, type)
     text.go(after)
     text.begin(after)
