@@ -26,7 +26,8 @@ from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
 
 _TEXTS = {
     "STRING_TO_BOOL": Allowance.TRUE_TEXTS, "STRING_TO_ULINT": Allowance.TEXT_NUMBERS,
-    "STRING_TO_LWORD": Allowance.TEXT_NUMBERS,
+    "STRING_TO_LWORD": Allowance.TEXT_NUMBERS, "TIME_TO_STRING": Allowance.SHORT_TIMES,
+    "TIME_OF_DAY_TO_STRING": Allowance.SHORT_TIMES,
 }  # fmt: skip
 
 

@@ -28,8 +28,10 @@ from scanbench.program.types import (
     BOOL,
     DATE_AND_TIME,
     ELEMENTARY,
+    INT,
     LINT,
     LREAL,
+    LTIME,
     LWORD,
     UDINT,
     ULINT,
@@ -50,6 +52,8 @@ STRINGS = {"STRING": StringType(80), "WSTRING": StringType(80, 2)}
 SHORT = {name: type for name, type in ABBREVIATIONS.items() if len(name) > 2 or name == "DT"}
 """TOD, LTOD, DT, LDT: the abbreviations that occur in names of conversions."""
 
+FRACTIONS = {"TIME_OF_DAY": 3, "LTIME_OF_DAY": 9, "LDATE_AND_TIME": 9}
+"""Digits of a second that CODESYS writes, where there are any but zeros."""
 NUMBER_TEXT = StringType(20)
 REAL_TEXT = StringType(32)
 BITCASTS = {("DWORD", "REAL"), ("REAL", "DWORD"), ("LWORD", "LREAL"), ("LREAL", "LWORD")}
@@ -302,9 +306,14 @@ class _Converter:
                 return Intrinsic("REAL_TO_STR", REAL_TEXT, (fold.convert(LREAL, expr), digits))
             case Kind.BOOL:
                 return self.library("BOOL_TO_STRING", expr)
+            case Kind.TIME if self._vendor.short_times:
+                long = Const(BOOL, int(source == LTIME))
+                return self.library("__DURATION_TEXT", fold.convert(ELEMENTARY["TIME"], expr), long)
             case Kind.TIME | Kind.DATE:
                 part = _part(source)
                 text = self.library(f"{part}_TO_STRING", fold.convert(ELEMENTARY[part], expr))
+                if text is not None and self._vendor.short_times and source.name in FRACTIONS:
+                    text = self.library("__FILLED", text, Const(INT, FRACTIONS[source.name]))
                 if text is None or part == source.name:
                     return text
                 assert isinstance(text.type, StringType)
