@@ -342,7 +342,7 @@ RULES: dict[Allowance, Rule] = {
     Allowance.FOR_ENDS: Rule(
         "the end value and the step of a FOR loop that are computed for each round",
         "they are computed once, as the loop begins",
-        "`last := n;` before it, and `FOR i := 1 TO last`",
+        "`last := n; FOR i := 1 TO last`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",

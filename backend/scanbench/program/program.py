@@ -12,13 +12,11 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   only STRING to STRING (cut at capacity).
 - AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right; an assignment evaluates the value, then the address of its
   target; that of an output's target comes after the call, of a function after all it gives is read.
-- FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is stored to the variable at the start of every
-  round, and once more when the loop ends normally (the value that failed the test, wrapped at the width of the variable). A loop over the full range of its
-  type ends. Step 0 gives no round. Budget is taken before the counter is stored; the place of the variable is evaluated at each store. A FOR with `again` evaluates
-  start; then, each time, the counter is stored, end and step are evaluated and compared, budget is taken, the body runs, and the step is evaluated and added.
-- Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with `exits`; a FOR without `exits` takes all
-  its rounds from it at once before the first (saturating at i64). Where it falls below zero the loop traps with kind `loop` (before the round's body).
-- CONTINUE goes on with the next round: FOR's count, WHILE's condition, REPEAT's UNTIL.
+- FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is stored to the variable at the start of every round, and
+  once more when the loop ends normally (the value that failed the test, wrapped at the width of the variable). A loop over the full range of its type ends. Step 0 gives no round.
+  Budget is taken before the counter is stored; the place of the variable is evaluated at each store. With `again`: store, end and step, test, budget, body, step to be added.
+- Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with `exits`; a FOR without `exits` takes all its rounds from it
+  at once before the first (saturating at i64). Below zero the loop traps with kind `loop` (before the round's body). CONTINUE goes on with FOR's count, WHILE's condition, REPEAT's UNTIL.
 - Types are seen by `kind` and `size` alone: an Enumeration, Subrange or Reference computes like its base (a reference like an unsigned 64-bit integer), DATE
   like TIME, CHAR like a bit string.
 - A reference or in-out slot holds a byte offset in bits 0-31 and a bit number, which BOOL alone looks at, in bits 32-34. It traps at `null_trap` (0 is NULL),
@@ -292,8 +290,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class For:
-    """`start`, `end` and `step` have the type of `variable`, an integer. It `follows` what the body leaves in a variable of up to 32 bits;
-    with such a one `end` and `step` may be computed `again` for each round, and then `exits` is True."""
+    """`start`, `end`, `step` have the type of `variable`, an integer. A variable of up to 32 bits: the loop `follows` what the body writes, and evaluates `again`."""
 
     variable: Place
     start: Expr

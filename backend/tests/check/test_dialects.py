@@ -343,7 +343,7 @@ def test_an_end_value_that_the_loop_changes_is_told_where_it_is_computed_again()
         for name in ("codesys", "twincat"):
             found = checked(body, name).problems
             assert [(each.code, each.span.line, each.severity) for each in found] == [("W006", LINE, Severity.WARNING)]
-            assert "`last := n;`" in found[0].message
+            assert "`last := n; FOR i := 1 TO last`" in found[0].message
     assert checked("FOR i := 1 TO j DO d := d + 1; unit.reset(); END_FOR", "codesys").problems == ()
     text = "PROGRAM Main\nVAR i, n : LINT; END_VAR\nFOR i := 1 TO n DO n := n - 1; END_FOR\nEND_PROGRAM\n"
     wide = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL).problems
