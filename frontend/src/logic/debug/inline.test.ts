@@ -26,6 +26,11 @@ describe("the variables that a line names", () => {
     expect(variablesIn("(* begins").comment).toBe(true);
     expect(variablesIn("still *) x := 1;", true).variables.map(({ path }) => path)).toEqual(["x"]);
   });
+  it("are not the modes of contacts, coils and actions", () => {
+    expect(names("[P go] [/n] (S s) (R r)")).toEqual(["go", "n", "s", "r"]);
+    expect(variablesIn("Count(N); Slow(D, T#20ms, n);", false, true).variables.map(({ path }) => path)).toEqual(["n"]);
+    expect(names("x := (n OR block(S));")).toEqual(["x", "n", "OR", "S"]);
+  });
   it("have the column at which they begin", () => {
     expect(variablesIn("  x := y;").variables).toEqual([
       { path: "x", column: 3 },

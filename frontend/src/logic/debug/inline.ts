@@ -10,8 +10,12 @@ export interface NamedVariable {
 const NAME = /[\p{L}_][\p{L}\d_]*/uy;
 const STEP = /(?:\.\s*[\p{L}_][\p{L}\d_]*)|\[\s*-?\d+(?:\s*,\s*-?\d+)*\s*\]|\^/uy;
 
-/** Each variable once, in the order of the line. `comment` says whether the line begins inside a comment. */
-export function variablesIn(line: string, comment = false): { variables: NamedVariable[]; comment: boolean } {
+/** Each variable once, in the order of the line. `comment` says whether the line begins inside a comment, `step` whether inside a step of a chart. */
+export function variablesIn(
+  line: string,
+  comment = false,
+  step = false,
+): { variables: NamedVariable[]; comment: boolean } {
   const variables: NamedVariable[] = [];
   const seen = new Set<string>();
   let at = 0;
@@ -34,7 +38,7 @@ export function variablesIn(line: string, comment = false): { variables: NamedVa
       at += 2;
       continue;
     }
-    const found = take(line, at);
+    const found = take(line, at, step);
     if (!found) {
       at += 1;
       continue;
@@ -60,7 +64,15 @@ function skip(line: string, at: number): number | "comment" | null {
   return literal ? at + literal[0].length : null;
 }
 
-function take(line: string, at: number): { path: string; column: number; end: number; named: boolean } | null {
+/** Of contacts and coils, `[P a]`, `(S a)`, and of actions in a step, `a(N)`. */
+const MODE = /^[PNSR]$/i;
+const QUALIFIER = /^(?:[NRSLDP]|SD|DS|SL|P[01])$/i;
+
+function take(
+  line: string,
+  at: number,
+  inStep: boolean,
+): { path: string; column: number; end: number; named: boolean } | null {
   NAME.lastIndex = at;
   const first = NAME.exec(line);
   if (!first) return null;
@@ -78,5 +90,8 @@ function take(line: string, at: number): { path: string; column: number; end: nu
   const call = /^\s*\((?!\*)/.test(rest);
   const member = /\.\s*$/.test(line.slice(0, at));
   const parameter = /^\s*(:=|=>)/.test(rest) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));
-  return { path, column: at + 1, end, named: !call && !parameter && !member };
+  const mode =
+    MODE.test(path) && /[[(]\s*$/.test(line.slice(0, at)) && /^\s+(?!(?:AND|OR|XOR|MOD)\b)[\p{L}_%(]/iu.test(rest);
+  const qualifier = inStep && QUALIFIER.test(path) && /\(\s*$/.test(line.slice(0, at));
+  return { path, column: at + 1, end, named: !call && !parameter && !member && !mode && !qualifier };
 }

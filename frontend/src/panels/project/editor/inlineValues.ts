@@ -134,6 +134,7 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
     let pou = pouAt(pous, path, startLineNumber, text);
     if (pou && on && hasValues(pou)) void loadNames(ownerOf(pous, pou).name);
     let comment = false;
+    let step = isInStep(model, startLineNumber);
     for (let line = startLineNumber; line <= endLineNumber; line += 1) {
       const begins = pous.find((known) => known.file === path && known.line === line);
       if (begins && begins !== pou) {
@@ -141,8 +142,10 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
         if (on && hasValues(pou)) void loadNames(ownerOf(pous, pou).name);
       } else if (pou?.kind === "action") pou = pouAt(pous, path, line, text);
       const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
-      const found = variablesIn(model.getLineContent(line), comment);
+      const written = model.getLineContent(line);
+      const found = variablesIn(written, comment, step);
       comment = found.comment;
+      step = (step || STEP.test(written)) && !END_STEP.test(written);
       const values = pou && on && hasValues(pou) ? valuesOf(found.variables, ownerOf(pous, pou), inFrame) : [];
       const next = haltedAt === line ? saidOf(halted?.look) : "";
       const old = inFrame && haltedAt !== null && line > haltedAt;
@@ -151,6 +154,20 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
     }
   }
   return wanted;
+}
+
+const STEP = /^\s*(?:INITIAL_)?STEP\s+[\p{L}_]/iu;
+const END_STEP = /\bEND_STEP\b/i;
+
+/** Whether a line is inside of a step of a chart, by the lines above it. */
+function isInStep(model: editor.ITextModel, line: number): boolean {
+  for (let above = line - 1; above > 0; above -= 1) {
+    const written = model.getLineContent(above);
+    if (END_STEP.test(written)) return false;
+    if (STEP.test(written)) return true;
+    if (/^\s*END_/i.test(written)) return false;
+  }
+  return false;
 }
 
 const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
