@@ -114,6 +114,7 @@ async function perSecond(page, spent) {
 /** Scrolls for some seconds, the wheel turned by the browser itself: a round trip for each turn would be measured, too. */
 async function scroll(page, cdp, sheet, spent) {
   const box = await sheet.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   let rate = 0;
   const all = await spent(async () => {
     const frames = page.evaluate(
