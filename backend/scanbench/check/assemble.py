@@ -19,6 +19,7 @@ from scanbench.program.program import Base, Place, Pou, Program
 from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import BOOL, Kind, Member, Record, Section
 from scanbench.syntax import tree
+from scanbench.syntax.scl import is_scl
 
 BUDGET = 10_000_000
 """Loop rounds a scan may take before it counts as endless: about 10 ms of native code at least."""
@@ -110,7 +111,8 @@ def assemble(
 
 def _tell_empty(report: Report, where: Span, around: Around) -> None:
     alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
-    report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
+    program = "ORGANIZATION_BLOCK" if is_scl(where.file) else "PROGRAM"
+    report.error("D011", f"There is no {program}, so nothing would run.{alone}", where)
 
 
 def _planned(report: Report, planner: Planner, configurations: list[tree.Configuration]) -> list[PlannedTask]:

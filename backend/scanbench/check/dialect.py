@@ -113,6 +113,8 @@ class Dialect:
     """Names, in upper case, that the project defines for conditional pragmas."""
     subranges: Mapping[str, Policy] = field(default_factory=dict, hash=False)
     """What the project says of values outside of subranges; names are in upper case."""
+    text_length: int = 80
+    """Characters of a STRING or WSTRING that is declared without a length."""
 
     def policy(self, name: str) -> str:
         """What the project says under this name; '' where it says nothing."""

@@ -262,7 +262,7 @@ RULES: dict[Allowance, Rule] = {
         "a block for each value, or VAR_IN_OUT with ARRAY[*]",
     ),
     Allowance.SHORTER_STRINGS: Rule(
-        "a STRING of fewer characters for the VAR_IN_OUT of a FUNCTION or METHOD that only reads it",
+        "a STRING of fewer characters, or an array of them for ARRAY[*], for a VAR_IN_OUT of a FUNCTION or METHOD that only reads it",
         "a variable has the type of the in-out that it is passed to",
         "`VAR_IN_OUT CONSTANT`",
     ),

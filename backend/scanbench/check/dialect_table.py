@@ -25,6 +25,7 @@ _SIEMENS = frozenset(
             Allowance.TEXT_CASES,
             Allowance.OPEN_REFERENCES,
             Allowance.ALIKE_STRUCTURES,
+            Allowance.SHORTER_STRINGS,
         ),
     }
 )
@@ -46,6 +47,7 @@ DIALECTS: dict[DialectName, Dialect] = {
             | {Allowance.BIT_CONVERSION, Allowance.NARROWING, Allowance.REAL_CONVERSION}
             | {Allowance.BLOCK_TEMPORARIES, Allowance.INSTANCE_COPIES},
             frozenset({"SYSTEM.MATH", "IEC"}),
+            text_length=254,
         ),
         Dialect(
             "rockwell",

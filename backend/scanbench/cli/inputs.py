@@ -16,7 +16,7 @@ from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.server.archive import unpack
 from scanbench.server.completed import completed, unknown_libraries
-from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text, twincat_projects
+from scanbench.server.from_disk import DEFAULT_MODEL, package_files, program_files, project_model, read_text, twincat_projects
 from scanbench.server.twincat_project import TwinCatProject, in_parts
 from scanbench.syntax.language_file import (
     DIALECTS,
@@ -122,6 +122,7 @@ def _completed(texts: dict[str, str], read: _Read, projects: list[TwinCatProject
 def _read(paths: list[Path], dialect: str | None) -> _Read:
     texts: dict[str, str] = {}
     projects: dict[str, TwinCatProject] = {}
+    packages: list[str] = []
     model = None
     try:
         for path in paths:
@@ -129,10 +130,12 @@ def _read(paths: list[Path], dialect: str | None) -> _Read:
                 archive = unpack(_bytes(path))
                 texts |= {str(path / each): text for each, text in archive.files.items()}
                 model = model or archive.model or None
+                packages += archive.left_out
                 projects |= {str(path / str(number)): each for number, each in enumerate(archive.twincat)}
                 continue
             texts |= {str(each): read_text(each) for each in program_files(path)}
             model = model or project_model(path)
+            packages += package_files(path)
             projects |= twincat_projects(path) if path.is_dir() else {}
     except Refused as error:
         usage(str(error))
@@ -142,7 +145,7 @@ def _read(paths: list[Path], dialect: str | None) -> _Read:
         if named is None:
             usage(f"there is no dialect {dialect}: write one of {', '.join(DIALECTS)}")
         texts = with_dialect(texts, named, str(folder / LANGUAGE_FILE))
-    elif (in_dialect := with_dialect_by_format(texts, str(folder / LANGUAGE_FILE))) != texts:
+    elif (in_dialect := with_dialect_by_format(texts, str(folder / LANGUAGE_FILE), packages)) != texts:
         texts = in_dialect
         of_format = dialect_of(texts)[0]
         typer.echo(

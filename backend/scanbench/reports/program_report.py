@@ -103,7 +103,10 @@ def program_report(
     if own is not None:
         files = [each for each in files if each.name in own]
         problems = [each for each in problems if each.span.file in own]
-    errors = [each for each in problems if each.severity is Severity.ERROR]
+    some = any(each.pous for each in files)  # a library stops at nothing where no program is
+    errors = [
+        each for each in problems if each.severity is Severity.ERROR and not (some and each.code == OF_THE_WHOLE)
+    ]
     return ProgramReport(
         tuple(files),
         _causes(errors, trees),
@@ -120,7 +123,7 @@ def joined(reports: Sequence[ProgramReport]) -> ProgramReport:
         same.setdefault((each.code, _NAMED.sub("`_`", each.message)), []).append(each)
     causes = []
     for (code, general), found in same.items():
-        message = found[0].message if len({each.message for each in found}) == 1 else general
+        message = _shared([each.message for each in found], general)
         places = tuple(place for each in found for place in each.places)
         causes.append(Cause(code, message, places, sum(each.pous for each in found)))
     return ProgramReport(
@@ -130,6 +133,12 @@ def joined(reports: Sequence[ProgramReport]) -> ProgramReport:
         tuple(sorted({each for report in reports for each in report.missing}, key=str.lower)),
         tuple(each for report in reports for each in report.stubs),
     )
+
+
+def _shared(messages: Sequence[str], general: str) -> str:
+    """Messages that are the same but for their names, with those names that are the same in all."""
+    names = iter(zip(*(_NAMED.findall(each) for each in messages), strict=True))
+    return _NAMED.sub(lambda _: found.pop() if len(found := set(next(names))) == 1 else "`_`", general)
 
 
 def _rank(cause: Cause) -> tuple[int, int, str, str]:
@@ -144,7 +153,7 @@ def _causes(errors: Sequence[Problem], trees: Mapping[str, tree.File]) -> tuple[
     made = []
     for (code, general), found in same.items():
         pous = {(each.span.file, bisect(begins.get(each.span.file, []), each.span.line)) for each in found}
-        message = found[0].message if len({each.message for each in found}) == 1 else general
+        message = _shared([each.message for each in found], general)
         made.append(Cause(code, message, tuple(each.span for each in found), len(pous)))
     return tuple(sorted(made, key=_rank))
 

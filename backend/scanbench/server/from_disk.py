@@ -7,6 +7,7 @@ from pathlib import Path
 from scanbench.server.project_files import OWN_FILES
 from scanbench.server.twincat_project import ENDING, TwinCatProject, left_out, read_twincat_project, with_tasks
 from scanbench.server.twincat_tasks import ENDING as TASKS
+from scanbench.syntax.language_file import PACKAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
@@ -51,6 +52,13 @@ def twincat_projects(folder: Path) -> dict[str, TwinCatProject]:
         str(each): read_text(each) for each in folder.rglob("*") if each.suffix.lower() == TASKS and each.is_file()
     }
     return {str(each): with_tasks(str(each), read_twincat_project(read_text(each)), tasks) for each in found}
+
+
+def package_files(path: Path) -> list[str]:
+    """Files of a folder, and below, that say that its programs are packages of SIMATIC AX; of a file, the one beside it."""
+    folder = path if path.is_dir() else path.parent
+    beside = folder / PACKAGE_FILE
+    return [str(each) for each in (folder.rglob(PACKAGE_FILE) if path.is_dir() else (beside,)) if each.is_file()]
 
 
 def read_text(path: Path) -> str:

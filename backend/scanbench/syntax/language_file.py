@@ -19,6 +19,8 @@ from scanbench.syntax.scl import is_scl
 
 LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
+PACKAGE_FILE = "apax.yml"
+"""The file of a package of SIMATIC AX."""
 FORMAT = 4
 """Version 1 had no `namespaces`. Before version 3 the strings of CODESYS and TwinCAT began with their length here, and a project
 keeps that: its programs were laid out so; nor were there `defines`. Version 4 has `subranges`. A file is written in the first version
@@ -42,6 +44,11 @@ _CODESYS_MARKS = re.compile(
 def is_language_file(path: str) -> bool:
     """Whether a file of this path says in which dialect its project is written."""
     return posixpath.basename(path.replace("\\", "/")) == LANGUAGE_FILE
+
+
+def is_package(path: str) -> bool:
+    """Whether a file of this path says what a package of SIMATIC AX is."""
+    return posixpath.basename(path.replace("\\", "/")).lower() == PACKAGE_FILE
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,9 +98,16 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
     return {**sources, own: language_text(dialect, said.namespaces, version, said.defines, _words(said))}
 
 
-def with_dialect_by_format(sources: Mapping[str, str], name: str = LANGUAGE_FILE) -> dict[str, str]:
-    """The sources, in the dialect of their files' format if they name none; `name` is that of the file that says so then."""
+def with_dialect_by_format(
+    sources: Mapping[str, str], name: str = LANGUAGE_FILE, others: Iterable[str] = ()
+) -> dict[str, str]:
+    """The sources, in the dialect of their files' format if they name none; `name` is that of the file that says so then.
+
+    `others` are names of files beside them, which may say whose tool wrote them: a package of SIMATIC AX has `.st` files, too.
+    """
     of_format = "codesys" if is_export(sources) else dialect_by_format(sources)
+    if of_format == STRICT and any(map(is_package, others)):
+        of_format = "siemens"
     if of_format == STRICT or any(map(is_language_file, sources)):
         return dict(sources)
     return with_dialect(sources, of_format, name)
@@ -237,7 +251,7 @@ def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> Diale
     exported = is_export(files) or any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
-    if any(name.endswith((".awl", "apax.yml")) for name in names) or any(map(is_scl, files)):
+    if any(name.endswith(".awl") or is_package(name) for name in names) or any(map(is_scl, files)):
         return "siemens"
     if any(name.endswith(".acd") for name in names):
         return "rockwell"

@@ -14,7 +14,7 @@ from scanbench.plcmodel.load import NoSuchModel, model_named
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.server.completed import completed
-from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text, twincat_projects
+from scanbench.server.from_disk import DEFAULT_MODEL, package_files, program_files, project_model, read_text, twincat_projects
 from scanbench.syntax.language_file import LANGUAGE_FILE, with_dialect_by_format
 from scanbench.wire.refused import Refused
 
@@ -58,7 +58,7 @@ class Project:
         except NoSuchModel as error:
             raise BrokenProject(str(error)) from error
         folder = path if path.is_dir() else path.parent
-        texts = with_dialect_by_format(texts, str(folder / LANGUAGE_FILE))
+        texts = with_dialect_by_format(texts, str(folder / LANGUAGE_FILE), package_files(path))
         made = {_below(folder, each): text for each, text in completed(texts, projects, str(folder)).items()}
         checked = check_sources(made, model, INTERVAL_NS)
         if checked.program is None:

@@ -91,6 +91,12 @@ def test_the_types_of_the_uses_are_right() -> None:
     assert check_sources({"a.st": TYPES.format("", "x := g.m();")}, MODELS["GENERIC-IEC"]).problems == ()
 
 
+def test_a_missing_type_of_a_result_is_told_once() -> None:
+    text = "INTERFACE I\nMETHOD m : Gone END_METHOD END_INTERFACE\nPROGRAM Main VAR i : I; n : BOOL; END_VAR n := i.m().x(); END_PROGRAM"
+    found = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems
+    assert [(each.code, each.message) for each in found] == [("D002", "There is no type `Gone`.")]
+
+
 def expect(code: str, line: int, message: str, text: str) -> None:
     checked = check_sources({"a.st": text}, MODELS["GENERIC-IEC"])
     assert checked.program is None

@@ -61,3 +61,18 @@ def test_a_recorded_run_is_replayed_in_its_dialect(tmp_path: Path) -> None:
     assert ran.returncode == 0, ran
     again = scanbench("replay", str(run))
     assert again.returncode == 0, again
+
+
+def test_a_package_of_simatic_ax_names_the_dialect(tmp_path: Path) -> None:
+    source = tmp_path / "src"
+    source.mkdir()
+    (source / "Main.st").write_text("PROGRAM Main VAR n : INT; END_VAR n += 1; END_PROGRAM\n")
+    assert scanbench("check", str(tmp_path)).returncode == 1
+    (tmp_path / "apax.yml").write_text("name: plant\n")
+    said = scanbench("check", str(tmp_path))
+    assert (said.returncode, "siemens programs by the format" in said.stderr) == (0, True), said
+    ran = scanbench("run", str(tmp_path), "--scans", "1", "--print", "Main.n")
+    assert (ran.returncode, "siemens programs by the format" in ran.stderr) == (0, True), ran
+    assert scanbench("check", str(tmp_path), "--dialect", "iec").returncode == 1
+    (tmp_path / LANGUAGE_FILE).write_text(language_text("iec"))
+    assert scanbench("check", str(tmp_path)).returncode == 1

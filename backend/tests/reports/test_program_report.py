@@ -105,3 +105,14 @@ def test_a_file_that_declares_nothing_stops_no_report() -> None:
     checked = check_sources(files, MODELS["GENERIC-IEC"])
     report = program_report(files, checked.problems)
     assert [each.pous for each in report.files] == [0, 1]
+
+
+def test_a_library_without_a_program_stops_nothing_and_names_are_left_out_where_they_differ() -> None:
+    fine = {"Blocks.scl": 'FUNCTION_BLOCK "Good"\nVAR n : INT; END_VAR\nBEGIN\n#n := 1;\nEND_FUNCTION_BLOCK\n'}
+    problems = check_sources(fine, MODELS["GENERIC-IEC"]).problems
+    assert [(each.code, "There is no ORGANIZATION_BLOCK" in each.message) for each in problems] == [("D011", True)]
+    assert program_report(fine, problems).causes == ()
+    record = "TYPE T : STRUCT a : INT; END_STRUCT END_TYPE\n"
+    wrong = {"Main.st": record + "PROGRAM Main\nVAR t : T; END_VAR\nt.b := 1;\nt.c := 1;\nEND_PROGRAM\n"}
+    causes = program_report(wrong, check_sources(wrong, MODELS["GENERIC-IEC"]).problems).causes
+    assert [each.message for each in causes] == ["`T` has no member `_`."]

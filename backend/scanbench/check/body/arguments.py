@@ -9,6 +9,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.counting import lent_counter
 from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
+from scanbench.check.body.longer_texts import copied_texts
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.receivers import is_variable
 from scanbench.check.body.short_times import cut_here
@@ -274,7 +275,8 @@ def in_out(
     if member.constant:
         if member.open_input and may(body, Allowance.OPEN_INPUTS):
             _perhaps_written(body, variable_symbol(member, owner), value)
-        return _constant_in_out(body, member, value, before)
+        longer = variable_symbol(member, owner) if once else None
+        return _constant_in_out(body, member, longer, value, before)
     if not isinstance(value, VARIABLES):
         raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
     how = f" Something may write to `{member.name}`: to read through it, declare that in a VAR_IN_OUT CONSTANT."
@@ -303,27 +305,37 @@ def _perhaps_written(body: Body, reader: Symbol, value: tree.Expression) -> None
 
 
 def _is_shorter(actual: Type, formal: Type) -> bool:
-    strings = isinstance(actual, StringType) and isinstance(formal, StringType) and actual.zero and formal.zero
-    return strings and actual.size < formal.size
+    """Whether a text, or each of those of an array for an ARRAY[*], has room for fewer characters."""
+    if isinstance(actual, ArrayType) and isinstance(formal, OpenArray) and len(actual.bounds) == formal.dimensions:
+        return _is_shorter(actual.element, formal.element)
+    strings = isinstance(actual, StringType) and isinstance(formal, StringType)
+    return strings and replace(actual, capacity=0) == replace(formal, capacity=0) and actual.capacity < formal.capacity
 
 
 def _read_as(
     body: Body, member: Member, reader: Symbol, place: Place, value: tree.Expression, before: list[Stmt]
 ) -> Place:
-    """A copy of a string in a longer one, where the dialect has that; refused if anything writes to the in-out."""
+    """A copy of a string in a longer one, or of an array of them, where the dialect has that; refused if anything writes to the
+    in-out."""
     told = f"The in-out `{member.name}` is {member.type}; {place.type} is passed to it, and only read"
     if not allowed(body, Allowance.SHORTER_STRINGS, value.span, told):
         return _bindable(body, member, place, value)
     why = f"The in-out `{member.name}` is {member.type} and something may write to it; {place.type} cannot be bound to it."
     body.report.borrowed.append(Borrowed(reader, Problem("T005", why, value.span)))
+    if isinstance(place.type, ArrayType) and isinstance(member.type, OpenArray):
+        return copied_texts(body, place, member.type.element, value.span, before)
     copy = body.temporary(member.type, value.span)
     before.append(Assign(copy, Load(place), value.span))
     return copy
 
 
-def _constant_in_out(body: Body, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:
+def _constant_in_out(
+    body: Body, member: Member, reader: Symbol | None, value: tree.Expression, before: list[Stmt]
+) -> Place:
     if isinstance(value, VARIABLES) and is_variable(body, value):
         place, _ = body.place(value)
+        if reader is not None and isinstance(member.type, OpenArray) and _is_shorter(place.type, member.type):
+            return _read_as(body, member, reader, place, value, before)
         if place.type == member.type or not isinstance(member.type, Elementary | StringType):
             return _bindable(body, member, place, value)
     if isinstance(member.type, OpenArray):

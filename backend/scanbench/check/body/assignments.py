@@ -9,6 +9,7 @@ from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.counting import not_counter
+from scanbench.check.body.growing import written
 from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, given_reference, raw_place
@@ -80,7 +81,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     if isinstance(target.type, ArrayType | Record):
         return _copy(body, node, target, note, what)
     value = arriving(body, as_type(body, node.value, target.type, what), target, node.span)
-    return Assign(target, keeping(body, value, note, node.span), node.span)
+    return written(body, target, keeping(body, value, note, node.span), node.span)
 
 
 def _combined(body: Body, node: tree.Assignment) -> Stmt:

@@ -79,6 +79,7 @@ class Dispatcher:
 
     def _method(self, name: str, owner: Class, signature: Pou, found: dict[Pou, list[int]]) -> Pou:
         frame = Record(name, Kind.STRUCT)
+        frame.open = signature.frame.open
         for key in signature.parameters:
             member = signature.frame.members[key]
             this = owner.record if key == "THIS" else None

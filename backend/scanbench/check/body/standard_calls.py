@@ -1,6 +1,7 @@
 """Calls of standard functions -> intrinsics and operations."""
 
 import re
+from dataclasses import replace
 from functools import partial
 
 from scanbench.check.body import conversions, fold, standard_fold, wide
@@ -279,6 +280,11 @@ def _without_any(body: Body, name: str, node: tree.Call) -> str:
     return f"TO_{target}" if to and source in ("ANY", "ANY_NUM") and may(body, Allowance.VENDOR_OPERATORS) else name
 
 
+def _of_dialect(body: Body, type: Type | None) -> Type | None:
+    """The type that a conversion names: a text is as long as the dialect has it without a length."""
+    return replace(type, capacity=body.dialect.text_length) if isinstance(type, StringType) else type
+
+
 def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
     given, name = name, _without_any(body, name, node)
     parsed = conversions.parse_name(name, lambda part: _user_type(body, part, node))
@@ -288,7 +294,7 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         _misspelt(body, node, name)
         return None
     value_tree = ordered(body, node, name, Special(("IN",), ""))[0]
-    source, target = parsed.source, parsed.target
+    source, target = (_of_dialect(body, each) for each in (parsed.source, parsed.target))
     if source is None:
         value = _number_of_pointer(body, settle(body.expression(value_tree)), name, value_tree)
     else:

@@ -33,6 +33,7 @@ from scanbench.syntax import tree
 
 COUNTED = (Kind.INT, Kind.UINT)
 DEFAULT_STRING = 80
+"""Characters of a string of the standard library that is declared without a length."""
 
 
 def type_of(declared: Declarations, spec: tree.TypeSpec) -> Type:
@@ -66,7 +67,8 @@ def type_of(declared: Declarations, spec: tree.TypeSpec) -> Type:
 
 def _string(declared: Declarations, length: tree.Expression | None, span: Span, width: int) -> Type:
     if length is None:
-        return _of_dialect(declared, StringType(DEFAULT_STRING, width), span)
+        most = DEFAULT_STRING if in_library(span) else declared.dialect.text_length
+        return _of_dialect(declared, StringType(most, width), span)
     value = declared.constant_of(length, None).value
     if not isinstance(value, int) or not 1 <= value <= MAX_STRING:
         raise declared.report.reject("D006", f"A STRING holds 1 to {MAX_STRING} characters, not {value!r}.", span)

@@ -62,12 +62,12 @@ UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 """Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
 NEEDED_BY = {
     "__HEAP": frozenset({"__NEW", "__DELETE"}),
-    "AxUnit": frozenset({"AXUNIT.ASSERT", "AXUNIT.MOCKING", "AXUNIT.RESULTFUNCTIONS"}),
+    "AxUnit": frozenset({"AXUNIT", "AXUNIT.ASSERT", "AXUNIT.MOCKING", "AXUNIT.RESULTFUNCTIONS"}),
     "Siemens": frozenset(
         {"CLOCK_0", "CLOCK_1", "CLOCK_2", "NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}
     ),
     "System": frozenset(
-        "SYSTEM.TIMER SYSTEM.EDGEDETECTION SYSTEM.STRINGS SYSTEM.DATETIME SYSTEM.SERIALIZATION SIEMENS.SIMATIC".split()
+        "SYSTEM.TIMER SYSTEM.COUNTERS SYSTEM.EDGEDETECTION SYSTEM.STRINGS SYSTEM.DATETIME SYSTEM.SERIALIZATION SIEMENS.SIMATIC".split()
     ),
 }
 """Operators, instructions and namespaces that use a library without a name that it declares."""
