@@ -17,10 +17,15 @@ from scanbench.program.types import LINT, UINT, StringType
 from scanbench.syntax.scl import is_scl
 
 
+def is_ax(body: Body, span: Span) -> bool:
+    """Whether this is text of SIMATIC AX, which has the dialect of SCL."""
+    return body.dialect.name == "siemens" and not is_scl(span.file)
+
+
 def written(body: Body, target: Place, value: Expr, span: Span) -> Stmt:
     """The assignment of a value; where the target is a character of a text that may grow, the one behind its end is there, too."""
     plain = Assign(target, value, span)
-    if body.dialect.name != "siemens" or is_scl(span.file) or not target.indices:
+    if not target.indices or not is_ax(body, span):
         return plain
     one = target.indices[-1]
     match one:

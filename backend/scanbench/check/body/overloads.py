@@ -7,7 +7,7 @@ from scanbench.check.body.receivers import Receiver
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
 from scanbench.program.program import Expr, Pou
-from scanbench.program.types import Elementary, Member, Section, StringType, Type
+from scanbench.program.types import ArrayType, Elementary, Member, OpenArray, Section, StringType, Type
 from scanbench.program.untyped import is_untyped, settle, widens
 from scanbench.syntax import tree
 from scanbench.syntax.parse_generic import TYPE_PARAMETERS
@@ -105,7 +105,7 @@ def _member(pou: Pou | None, position: int, argument: tree.Argument) -> Member |
         return None
     if argument.name is not None:
         return pou.frame.members.get(argument.name.upper())
-    formals = [each for each in pou.parameters if each != "THIS"]
+    formals = [each for each in pou.parameters if each != "THIS" and not pou.frame.members[each].hidden]
     return pou.frame.members[formals[position]] if position < len(formals) else None
 
 
@@ -118,6 +118,18 @@ def _takes(target: Expr, output: Type) -> int:
     return CONVERTED if type is not None and widens(output, type) else 0
 
 
+def _fits_open(type: Type | None, wanted: OpenArray) -> int:
+    """How well an array fits an ARRAY[*], which is bound to it and not converted."""
+    if isinstance(type, OpenArray):
+        return SAME if type == wanted else 0
+    if not isinstance(type, ArrayType) or len(type.bounds) != wanted.dimensions:
+        return 0
+    if type.element == wanted.element:
+        return SAME
+    texts = isinstance(type.element, StringType) and isinstance(wanted.element, StringType)
+    return CONVERTED if texts and type.element.kind is wanted.element.kind else 0
+
+
 def _fits(body: Body, argument: tree.Argument, value: Expr, wanted: Type | str) -> int:
     type = value.type
     if isinstance(wanted, str):
@@ -127,6 +139,8 @@ def _fits(body: Body, argument: tree.Argument, value: Expr, wanted: Type | str) 
         isinstance(type, StringType) and isinstance(wanted, StringType) and type.width == wanted.width
     ):
         return SAME
+    if isinstance(wanted, OpenArray):
+        return _fits_open(type, wanted)
     mark = body.report.mark()
     try:
         coerce(body, value, wanted, argument.span, "")

@@ -9,6 +9,7 @@ from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.bitwise import inverted, literal_inverted, literal_of
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.growing import is_ax
 from scanbench.check.body.lenient import bits_of, literal_shifted, shifted, shifted_with_sign
 from scanbench.check.body.named_texts import name_of
 from scanbench.check.body.operators import operate
@@ -285,6 +286,13 @@ def _of_dialect(body: Body, type: Type | None) -> Type | None:
     return replace(type, capacity=body.dialect.text_length) if isinstance(type, StringType) else type
 
 
+def _is_character(body: Body, node: tree.Expression, target: Type | None) -> bool:
+    """Whether `TO_USINT('0')` is the code of a character: in SIMATIC AX, where the tests of simatic-ax/conversion say so."""
+    one = isinstance(node, tree.Literal) and node.kind == "string" and isinstance(node.value, bytes) and len(node.value) == 1
+    number = isinstance(target, Elementary) and target.kind in (Kind.INT, Kind.UINT, Kind.BITS)
+    return one and number and is_ax(body, node.span)
+
+
 def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
     given, name = name, _without_any(body, name, node)
     parsed = conversions.parse_name(name, lambda part: _user_type(body, part, node))
@@ -295,6 +303,8 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         return None
     value_tree = ordered(body, node, name, Special(("IN",), ""))[0]
     source, target = (_of_dialect(body, each) for each in (parsed.source, parsed.target))
+    if source is None and _is_character(body, value_tree, target):
+        source = CHAR
     if source is None:
         value = _number_of_pointer(body, settle(body.expression(value_tree)), name, value_tree)
     else:

@@ -21,11 +21,13 @@ def _types_of(pou: tree.PouDeclaration, keywords: tuple[str, ...]) -> list[objec
 
 
 def _told(spec: tree.TypeSpec) -> object:
-    """A type by which an input differs from another; strings of any length, and arrays of any, are one."""
+    """A type by which an input differs from another; strings of any length, and arrays with bounds, are one."""
     if isinstance(spec, tree.NamedType):
         return spec.name.rpartition(".")[2].upper()
     if isinstance(spec, tree.ReferenceSpec) and isinstance(inner := _told(spec.target), str):
         return f"REF_TO {inner}"
+    if isinstance(spec, tree.OpenArraySpec):
+        return tree.OpenArraySpec, spec.dimensions, _told(spec.element)
     return type(spec)
 
 
