@@ -16,7 +16,14 @@ from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.server.archive import unpack
 from scanbench.server.completed import completed, unknown_libraries
-from scanbench.server.from_disk import DEFAULT_MODEL, package_files, program_files, project_model, read_text, twincat_projects
+from scanbench.server.from_disk import (
+    DEFAULT_MODEL,
+    package_files,
+    program_files,
+    project_model,
+    read_text,
+    twincat_projects,
+)
 from scanbench.server.twincat_project import TwinCatProject, in_parts
 from scanbench.syntax.language_file import (
     DIALECTS,

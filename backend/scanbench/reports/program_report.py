@@ -104,9 +104,7 @@ def program_report(
         files = [each for each in files if each.name in own]
         problems = [each for each in problems if each.span.file in own]
     some = any(each.pous for each in files)  # a library stops at nothing where no program is
-    errors = [
-        each for each in problems if each.severity is Severity.ERROR and not (some and each.code == OF_THE_WHOLE)
-    ]
+    errors = [each for each in problems if each.severity is Severity.ERROR and not (some and each.code == OF_THE_WHOLE)]
     return ProgramReport(
         tuple(files),
         _causes(errors, trees),

@@ -14,7 +14,14 @@ from scanbench.plcmodel.load import NoSuchModel, model_named
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.server.completed import completed
-from scanbench.server.from_disk import DEFAULT_MODEL, package_files, program_files, project_model, read_text, twincat_projects
+from scanbench.server.from_disk import (
+    DEFAULT_MODEL,
+    package_files,
+    program_files,
+    project_model,
+    read_text,
+    twincat_projects,
+)
 from scanbench.syntax.language_file import LANGUAGE_FILE, with_dialect_by_format
 from scanbench.wire.refused import Refused
 

@@ -308,8 +308,9 @@ def _is_shorter(actual: Type, formal: Type) -> bool:
     """Whether a text, or each of those of an array for an ARRAY[*], has room for fewer characters."""
     if isinstance(actual, ArrayType) and isinstance(formal, OpenArray) and len(actual.bounds) == formal.dimensions:
         return _is_shorter(actual.element, formal.element)
-    strings = isinstance(actual, StringType) and isinstance(formal, StringType)
-    return strings and replace(actual, capacity=0) == replace(formal, capacity=0) and actual.capacity < formal.capacity
+    if not isinstance(actual, StringType) or not isinstance(formal, StringType):
+        return False
+    return replace(actual, capacity=0) == replace(formal, capacity=0) and actual.capacity < formal.capacity
 
 
 def _read_as(

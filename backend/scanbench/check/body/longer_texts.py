@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from scanbench.check.body import fold
 from scanbench.check.body.context import Body
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, For, Index, Load, Place, Stmt
@@ -13,7 +12,8 @@ from scanbench.program.types import LINT, ArrayType, StringType, Type
 def copied_texts(body: Body, place: Place, element: Type, span: Span, before: list[Stmt]) -> Place:
     """A copy of an array of texts, with the same bounds and longer elements, which `before` makes."""
     type = place.type
-    assert isinstance(type, ArrayType) and isinstance(type.element, StringType)
+    assert isinstance(type, ArrayType)
+    assert isinstance(type.element, StringType)
     longer = ArrayType(type.bounds, element)
     copy, number = body.temporary(longer, span), body.temporary(LINT, span)
     trap = body.trap(TrapKind.BOUNDS, span, f"index outside of 0..{type.count - 1}")

@@ -288,7 +288,12 @@ def _of_dialect(body: Body, type: Type | None) -> Type | None:
 
 def _is_character(body: Body, node: tree.Expression, target: Type | None) -> bool:
     """Whether `TO_USINT('0')` is the code of a character: in SIMATIC AX, where the tests of simatic-ax/conversion say so."""
-    one = isinstance(node, tree.Literal) and node.kind == "string" and isinstance(node.value, bytes) and len(node.value) == 1
+    one = (
+        isinstance(node, tree.Literal)
+        and node.kind == "string"
+        and isinstance(node.value, bytes)
+        and len(node.value) == 1
+    )
     number = isinstance(target, Elementary) and target.kind in (Kind.INT, Kind.UINT, Kind.BITS)
     return one and number and is_ax(body, node.span)
 
