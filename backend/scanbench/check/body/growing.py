@@ -1,7 +1,7 @@
-"""Texts of SIMATIC AX that a character written behind their end makes longer.
+"""Texts of SIMATIC AX that a character written after their end makes longer.
 
 From the tests of the package simatic-ax/conversion, whose `ToString` writes an empty STRING character by character. What happens to
-the characters between, where a character is written further behind the end, is said nowhere: that traps, as everywhere. Of SCL in
+the characters between, where a character is written further after the end, is said nowhere: that traps, as everywhere. Of SCL in
 the TIA Portal nothing is known, so its texts do not grow.
 """
 
@@ -23,7 +23,7 @@ def is_ax(body: Body, span: Span) -> bool:
 
 
 def written(body: Body, target: Place, value: Expr, span: Span) -> Stmt:
-    """The assignment of a value; where the target is a character of a text that may grow, the one behind its end is there, too."""
+    """The assignment of a value; where the target is a character of a text that may grow, the one after its end is there, too."""
     plain = Assign(target, value, span)
     if not target.indices or not is_ax(body, span):
         return plain
@@ -38,11 +38,11 @@ def written(body: Body, target: Place, value: Expr, span: Span) -> Stmt:
         return plain
     length = one.high
     assert not isinstance(length, int)
-    behind = fold.binary("add", LINT, length, Const(LINT, 1))
-    high = Intrinsic("MIN", LINT, (behind, Const(LINT, text.type.capacity)))
+    after = fold.binary("add", LINT, length, Const(LINT, 1))
+    high = Intrinsic("MIN", LINT, (after, Const(LINT, text.type.capacity)))
     grown = replace(target, indices=(*target.indices[:-1], replace(one, high=high)))
-    longer = fold.convert(UINT, behind)
-    last = fold.compare("eq", LINT, position, behind)
+    longer = fold.convert(UINT, after)
+    last = fold.compare("eq", LINT, position, after)
     return together(
         [Assign(grown, value, span), If(((last, (Assign(replace(text, type=UINT), longer, span),)),), (), span)], span
     )

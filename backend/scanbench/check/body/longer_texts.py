@@ -16,14 +16,14 @@ def copied_texts(body: Body, place: Place, element: Type, span: Span, before: li
     assert isinstance(type.element, StringType)
     longer = ArrayType(type.bounds, element)
     copy, number = body.temporary(longer, span), body.temporary(LINT, span)
-    trap = body.trap(TrapKind.BOUNDS, span, f"index outside of 0..{type.count - 1}")
+    low, high = 0, type.count - 1
+    trap = body.trap(TrapKind.BOUNDS, span, f"index outside of {low}..{high}")
     turns = body.trap(TrapKind.LOOP, span, "this FOR has more rounds than a scan may take")
 
     def text(of: Place, each: Type) -> Place:
-        one = Index(Load(number), 0, type.count - 1, each.size, trap)
+        one = Index(Load(number), low, high, each.size, trap)
         return replace(of, type=each, indices=(*of.indices, one))
 
     one = Assign(text(copy, element), Load(text(place, type.element)), span)
-    last = Const(LINT, type.count - 1)
-    before.append(For(number, Const(LINT, 0), last, Const(LINT, 1), (one,), False, turns, span))
+    before.append(For(number, Const(LINT, low), Const(LINT, high), Const(LINT, 1), (one,), False, turns, span))
     return copy
