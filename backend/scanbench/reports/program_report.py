@@ -29,7 +29,7 @@ class FileReport:
     clean: int
     """POUs without an error of their own. Such a POU may still use one that has an error."""
     run: int
-    """POUs that would run: neither they nor anything that they use has an error."""
+    """POUs that would run: neither they nor anything that they use has an error, and they are no stubs, which do nothing."""
     stubbed: int
     """Of these, POUs that use a stub, by whatever way."""
     placeheld: int
@@ -174,7 +174,7 @@ def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: S
         refused = Counter(each.message for each in own if each.code == REFUSED)
         pous = [each for each in units[name] if each.is_pou]
         clean = sum(not each.wrong for each in pous)
-        run = [each for each in pous if id(each) not in stopped]
+        run = [each for each in pous if id(each) not in stopped and not each.stub]
         with_stubs = sum(id(each) in stubbed for each in run)
         with_held = sum(id(each) in placeheld for each in run)
         counts = len(pous), clean, len(run), with_stubs, with_held

@@ -32,6 +32,11 @@ def program_files(path: Path) -> list[Path]:
     unused = left_out([str(each) for each in found], twincat_projects(path))
     found = [each for each in found if str(each) not in unused]
     if not found:
+        if other := next((each for each in sorted(path.rglob("*")) if each.suffix.lower() == ".l5x"), None):
+            raise Refused(
+                f"there is no program file in {path}, but {other.name} is one of Studio 5000 (L5X). Import it: `scanbench import "
+                f"{other} DIR`, and check DIR."
+            )
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
     return found + [each for name in OWN_FILES if (each := path / name).is_file()]
 

@@ -24,6 +24,12 @@ from scanbench.program.types import ELEMENTARY, Record, Reference, Section, Type
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import GLOBAL_MARK, NOTHING
 
+_OF_LADDERS = {
+    **dict.fromkeys(("TON", "TOF", "RTO"), "In Structured Text call TONR, TOFR or RTOR with a tag of type FBD_TIMER."),
+    **dict.fromkeys(("CTU", "CTD"), "In Structured Text call CTUD with a tag of type FBD_COUNTER."),
+    **dict.fromkeys(("ONS", "OSR", "OSF"), "In Structured Text call OSRI or OSFI with a tag of type FBD_ONESHOT."),
+}
+"""Instructions that Structured Text of Logix does not have, and what it has (1756-RM003)."""
 _TEXTS = {
     "STRING_TO_BOOL": Allowance.TRUE_TEXTS, "STRING_TO_ULINT": Allowance.TEXT_NUMBERS,
     "STRING_TO_LWORD": Allowance.TEXT_NUMBERS, "TIME_TO_STRING": Allowance.SHORT_TIMES,
@@ -164,6 +170,8 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
     hint = body.declarations.library_hint(name) or body.report.near(name, lambda: _known(body), "function")
     if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
         hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
+    if body.dialect.name == "rockwell" and key in _OF_LADDERS:
+        hint = f" In Logix `{name}` is for ladders alone. {_OF_LADDERS[key]}"
     if key in ELEMENTARY:
         hint = f" `{name}` is a type; convert a value with TO_{key}(...)."
     untyped = bool({(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken)

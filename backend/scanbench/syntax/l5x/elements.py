@@ -21,6 +21,22 @@ _STEP = re.compile(r"\s*(\.)?\s*(\w+)\s*(?:\[([^\[\],]+)\])?")
 _TEXT = {"LEN": ("DINT", ()), "DATA": ("SINT", (82,))}
 
 
+def _declared(bits: str, *others: tuple[str, str]) -> dict[str, Declared]:
+    """Members that are BOOL, after others."""
+    made: dict[str, Declared] = {name: (type, ()) for name, type in others}
+    return made | dict.fromkeys(bits.split(), ("BOOL", ()))
+
+
+_BUILT_IN: Mapping[str, Mapping[str, Declared]] = {
+    "STRING": _TEXT,
+    "TIMER": _declared("EN TT DN", ("PRE", "DINT"), ("ACC", "DINT")),
+    "COUNTER": _declared("CU CD DN OV UN", ("PRE", "DINT"), ("ACC", "DINT")),
+    "FBD_TIMER": _declared("TIMERENABLE RESET", ("PRE", "DINT")) | _declared("EN TT DN", ("ACC", "DINT")),
+    "FBD_COUNTER": _declared("CUENABLE CDENABLE RESET", ("PRE", "DINT")) | _declared("CU CD DN OV UN", ("ACC", "DINT")),
+}
+"""The members of types of Logix that aliases are written for."""
+
+
 class Names(Protocol):
     """What names mean."""
 
@@ -86,7 +102,7 @@ def following(written: str, known: Names) -> int:
 
 def members_of(type: str, known: Names) -> Mapping[str, Declared]:
     """The members of a structure, by name."""
-    return _TEXT if type == "STRING" else known.members.get(type, {})
+    return _BUILT_IN.get(type) or known.members.get(type, {})
 
 
 def same_bytes(one: str, other: str, known: Names) -> bool:

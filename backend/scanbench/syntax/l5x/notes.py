@@ -11,6 +11,10 @@ def protected(routine: str) -> str:
     return f"the routine {routine} is encrypted; it is left out"
 
 
+def edited(routine: str) -> str:
+    return f"the routine {routine} has edits that are not accepted yet: its text before them is read"
+
+
 def with_parameters(routine: str) -> str:
     return f"{routine} has parameters, which are not read: the statement stays as it is, and is refused"
 
@@ -29,6 +33,10 @@ def hidden_alias(alias: str, target: str) -> str:
 
 def alias_parameter(parameter: str) -> str:
     return f"the parameter {parameter} is an alias of a member, which it gets and gives at the end of the routine alone, but RETURN leaves before"
+
+
+def no_alias_type(parameter: str, target: str) -> str:
+    return f"the parameter {parameter} is an alias for {target}, whose type the file does not show; it is left out"
 
 
 def not_run(what: str) -> str:

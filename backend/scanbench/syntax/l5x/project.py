@@ -6,16 +6,20 @@ from itertools import chain, count
 
 from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
+from scanbench.syntax.l5x.aliases import aliases, typed, with_aliases
 from scanbench.syntax.l5x.declarations import data_type, section, sections, sizes_here, types_of_data
 from scanbench.syntax.l5x.known import Known, Parameter, Passed
+from scanbench.syntax.l5x.lines import contents, rungs, written
 from scanbench.syntax.l5x.names import CONTROLLER, ELEMENTARY, OWN, TYPES, name_of
 from scanbench.syntax.l5x.statements import TooDeep, passed_of, statements
 from scanbench.syntax.l5x.stubs import controller
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
-from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml, text_of
+from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml
 
 ROOT = "RSLogix5000Content"
 LANGUAGES = {"RLL": "LD", "FBD": "FBD", "SFC": "SFC", "ST": "ST"}
+STUB = "{stub}\n"
+"""In a POU whose statements are left out: it does not count as one that runs, and who uses it is told."""
 _ONLY_CALL = re.compile(r"\s*JSR\(\s*(\w+)\s*(?:,\s*0\s*)?\)\s*;\s*$")
 _HEAD = re.compile(rb"<RSLogix5000Content\b")
 
@@ -102,12 +106,13 @@ class _Reader:
     def _add_on(self, node: Element) -> str:
         """An Add-On Instruction is a function block."""
         name = attribute(node, "Name")
+        own, locals = self._about_tags.notes, list(children(child(node, "LocalTags"), "LocalTag"))
         parameters = list(children(child(node, "Parameters"), "Parameter"))
+        parameters = typed(parameters, locals, Known(types=_types([*parameters, *locals]), members=self._members), own)
         of = {
             usage: [each for each in parameters if attribute(each, "Usage") == usage]
             for usage in ("Input", "Output", "InOut")
         }
-        own, locals = self._about_tags.notes, list(children(child(node, "LocalTags"), "LocalTag"))
         declared = (
             section("VAR_INPUT", of["Input"], own)
             + section("VAR_OUTPUT", of["Output"], own)
@@ -115,21 +120,22 @@ class _Reader:
             + section("VAR", locals, own)
         )
         known = Known(
-            _aliases(parameters),
+            aliases(parameters),
             {},
             self._instructions,
             _types([*parameters, *locals]),
             members=self._members,
             stubs=self._stubs,
         )
-        body = ""
+        body, left_out = "", ""
         for routine in children(child(node, "Routines"), "Routine"):
             read = self._read(f"{name}.{attribute(routine, 'Name')}", routine)
             if attribute(routine, "Name").upper() == "LOGIC":
-                body = _with_aliases(_text(routine, known, read), parameters, known, read)
+                body = with_aliases(_text(routine, known, read), parameters, known, read)
+                left_out = STUB if read.refused else ""
             elif not read.refused:
                 read.notes.append(notes.unused(attribute(routine, "Name")))
-        return f"FUNCTION_BLOCK {name_of(name)}\n{declared}{body}END_FUNCTION_BLOCK\n"
+        return f"FUNCTION_BLOCK {name_of(name)}\n{left_out}{declared}{body}END_FUNCTION_BLOCK\n"
 
     def _program(self, node: Element) -> str:
         """A program, whose routines are its actions."""
@@ -147,31 +153,31 @@ class _Reader:
             members=self._members,
             stubs=self._stubs,
         )
-        body, rest = "", ""
+        body, rest, left_out = "", "", ""
         for routine in routines:
             of = attribute(routine, "Name")
             read = self._read(f"{name}.{of}", routine)
             known.routine = of.upper()
             text = _text(routine, known, read)
             if of.upper() == main:
-                body = text
+                body, left_out = text, STUB if read.refused else ""
             elif not read.refused:
                 rest += f"ACTION {actions[of.upper()]}:\n{text}END_ACTION\n"
         declared = sections("VAR", tags, self._about_tags.notes)
-        return f"PROGRAM {name_of(name)}\n{declared}{rest}{body}END_PROGRAM\n"
+        return f"PROGRAM {name_of(name)}\n{left_out}{declared}{rest}{body}END_PROGRAM\n"
 
     def _aliases_in(self, tags: list[Element]) -> dict[str, str]:
         """What aliases are written for in a program with these tags, which go before those of the controller."""
         own = {attribute(each, "Name").upper() for each in tags}
         found = {}
-        for alias, target in _aliases(self._tags).items():
+        for alias, target in aliases(self._tags).items():
             if alias in own:
                 continue
             if re.split(r"\W", target, maxsplit=1)[0].upper() in own:
                 self._about_tags.notes.append(notes.hidden_alias(alias, target))
                 continue
             found[alias] = target
-        return found | _aliases(tags)
+        return found | aliases(tags)
 
     def _read(self, name: str, routine: Element) -> Read:
         type = attribute(routine, "Type")
@@ -183,6 +189,8 @@ class _Reader:
         elif type != "ST" and not _calls_only(routine):
             read.notes.append(notes.other_language(attribute(routine, "Name"), read.language))
             read.refused = True
+        elif contents(routine) > 1:
+            read.notes.append(notes.edited(attribute(routine, "Name")))
         return read
 
     def _configuration(self) -> str:
@@ -259,29 +267,6 @@ def _module_name(module: Element) -> str:
     return attribute(module, "Name")
 
 
-def _aliases(tags: Iterable[Element]) -> dict[str, str]:
-    return {
-        attribute(each, "Name").upper(): attribute(each, "AliasFor")
-        for each in tags
-        if attribute(each, "TagType") == "Alias" and attribute(each, "AliasFor")
-    }
-
-
-def _with_aliases(body: str, parameters: Iterable[Element], known: Known, read: Read) -> str:
-    """The body with what alias parameters give to their members before it, and get from them after it."""
-    aliases = [each for each in parameters if attribute(each, "TagType") == "Alias" and attribute(each, "AliasFor")]
-    if aliases and re.search(r"(?i)\bRETURN\b", body):
-        read.notes += [notes.alias_parameter(attribute(each, "Name")) for each in aliases]
-        return body
-    before, after = "", ""
-    for each in aliases:
-        name, target = name_of(attribute(each, "Name")), statements(attribute(each, "AliasFor"), known, read.notes)
-        if attribute(each, "Usage") == "Input":
-            before += f"{target} := {name};\n"
-        after += f"{name} := {target};\n"
-    return f"{before}{body}{after}"
-
-
 def _action(routine: str, taken: set[str]) -> str:
     """The name of its action; a tag may have the same name as a routine, a variable and an action may not."""
     return f"{name_of(routine)}_routine" if routine.upper() in taken else name_of(routine)
@@ -289,21 +274,13 @@ def _action(routine: str, taken: set[str]) -> str:
 
 def _calls_only(routine: Element) -> bool:
     """Whether a ladder does nothing but call routines, whatever its conditions are not."""
-    rungs = [text_of(child(each, "Text")) for each in children(child(routine, "RLLContent"), "Rung")]
-    return bool(rungs) and all(_ONLY_CALL.match(each) for each in rungs)
-
-
-def _written(routine: Element) -> str:
-    if attribute(routine, "Type") == "ST":
-        lines = [text_of(each) for each in children(child(routine, "STContent"), "Line")]
-    else:
-        lines = [text_of(child(each, "Text")).strip() for each in children(child(routine, "RLLContent"), "Rung")]
-    return "\n".join(lines)
+    found = rungs(routine)
+    return bool(found) and all(_ONLY_CALL.match(each) for each in found)
 
 
 def _passed(routines: Iterable[Element]) -> dict[str, Passed]:
     """What each routine in Structured Text is given and gives back, by its name in upper case."""
-    texts = ((attribute(each, "Name").upper(), _written(each)) for each in routines if attribute(each, "Type") == "ST")
+    texts = ((attribute(each, "Name").upper(), written(each)) for each in routines if attribute(each, "Type") == "ST")
     return {name: passed for name, text in texts if (passed := passed_of(text)) is not None}
 
 
@@ -311,7 +288,7 @@ def _text(routine: Element, known: Known, read: Read) -> str:
     if read.refused:
         return ""
     try:
-        text = statements(_written(routine), known, read.notes).strip("\n")
+        text = statements(written(routine), known, read.notes).rstrip("\n")
     except TooDeep:
         read.notes.append(notes.too_deep(attribute(routine, "Name")))
         read.refused = True
