@@ -13,7 +13,7 @@ from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]
 PAGE = Path(__file__).parents[3] / "docs" / "libraries.md"
-HELPERS = {"Tc2_Utilities_Digits", "Passed", "Ready", "Take", "Give", "Pack", "Unpack", "S7_Byte"}
+HELPERS = {"Tc2_Utilities_Digits", "Passed", "LADDER_PASSED", "Ready", "Take", "Give", "Pack", "Unpack", "S7_Byte"}
 HELPERS |= {"S5_Base", "S5_Begin", "S5_Digits", "S5_Left", "S5_Number"}
 HELPERS |= {"STRG_VAL_LREAL", "STRG_VAL_LINT", "VAL_STRG_LREAL", "VAL_STRG_LINT", "S_CONV_LINT"}
 HELPERS |= {f"RD_{which}_T_{type}" for which in ("SYS", "LOC") for type in ("DATE_AND_TIME", "LDATE_AND_TIME")}

@@ -11,7 +11,7 @@ import scanbench
 ROOT = Path(scanbench.__file__).parent
 NOT_READ = (
     "translation", "engines", "cli", "reports", "client.py", "testing", "history/scenario.py", "history/scenario_steps.py", "symbols/whole.py", "syntax/plcopen/chart.py", "syntax/plcopen/declarations.py", "syntax/plcopen/diagram.py",
-    "syntax/plcopen/ladder.py", "syntax/plcopen/project.py", "syntax/l5x/declarations.py", "syntax/l5x/project.py", "syntax/l5x/stubs.py", "server/twincat_tasks.py", "store/migrations", "store/__main__.py", "store/claim.py", "check/system/instruction_text.py",
+    "syntax/plcopen/ladder.py", "syntax/plcopen/project.py", "syntax/l5x/declarations.py", "syntax/l5x/ladder.py", "syntax/l5x/project.py", "syntax/l5x/stubs.py", "server/twincat_tasks.py", "store/migrations", "store/__main__.py", "store/claim.py", "check/system/instruction_text.py",
     "check/system/system_text.py", "check/standard/functions.py", "check/placeholders/placeholders.py", "check/placeholders/texts.py", "host/forking.py", "host/zygote.py", "host/host.py", "web/pages.py", "web/serve.py", "web/operations.py", "web/openapi.py", "web/built_files.py",
     "web/headers.py", "web/claim.py", "web/public_url.py", "jobs/checker.py", "plcmodel/write_catalogue.py",
 )  # fmt: skip

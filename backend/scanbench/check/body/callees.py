@@ -167,13 +167,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         if key not in FUNCTIONS:
             body.report.use(node.callee.span, name, Symbol("function", "", key))
         return standard
-    hint = body.declarations.library_hint(name) or body.report.near(name, lambda: _known(body), "function")
-    if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
-        hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
-    if body.dialect.name == "rockwell" and key in _OF_LADDERS:
-        hint = f" In Logix `{name}` is for ladders alone. {_OF_LADDERS[key]}"
-    if key in ELEMENTARY:
-        hint = f" `{name}` is a type; convert a value with TO_{key}(...)."
+    hint = _hint(body, node, name)
     untyped = bool({(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken)
     owner = own_class(body)
     untyped = untyped or (owner is not None and owner.record is not None and is_broken(body, owner.record, name))
@@ -183,6 +177,19 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         raise body.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
     action = f"`{name}` is no action and no variable; write ACTION {name}: ... END_ACTION, or declare a BOOL."
     raise body.report.reject("T001", action if body.chart else f"There is no function `{name}`.{hint}", node.span)
+
+
+def _hint(body: Body, node: tree.Call, name: str) -> str:
+    """What a name that is no function probably means."""
+    key = name.upper()
+    hint = body.declarations.library_hint(name) or body.report.near(name, lambda: _known(body), "function")
+    if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
+        hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
+    if body.dialect.name == "rockwell" and key in _OF_LADDERS:
+        hint = f" In Logix `{name}` is for ladders alone. {_OF_LADDERS[key]}"
+    if key in ELEMENTARY:
+        hint = f" `{name}` is a type; convert a value with TO_{key}(...)."
+    return hint
 
 
 def _known(body: Body) -> list[str]:

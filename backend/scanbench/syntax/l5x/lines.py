@@ -13,12 +13,13 @@ def written(routine: Element) -> str:
     """The text of a routine, with the lines that Studio 5000 numbers."""
     if attribute(routine, "Type") == "ST":
         return "\n".join(_lines(child(routine, "STContent")))
-    return "\n".join(rungs(routine))
+    return "\n".join(text for text, _ in rungs(routine))
 
 
-def rungs(routine: Element) -> list[str]:
-    """Those of a ladder, each as it is written."""
-    return [text_of(child(each, "Text")).strip() for each in children(child(routine, "RLLContent"), "Rung")]
+def rungs(routine: Element) -> list[tuple[str, str]]:
+    """Those of a ladder, each as it is written, and its comment."""
+    found = children(child(routine, "RLLContent"), "Rung")
+    return [(text_of(child(each, "Text")).strip(), text_of(child(each, "Comment")).strip()) for each in found]
 
 
 def contents(routine: Element) -> int:

@@ -7,7 +7,8 @@ from scanbench.syntax.lexer import KEYWORDS
 LIBRARY = "Logix"
 """The library whose texts are the types and instructions of Logix."""
 INSTRUCTIONS = frozenset(
-    "BTDT CONCAT CTUD DEG DELETE DFF DTOS FIND HLL INSERT LOWER MID MVMT OSFI OSRI RAD RESD RTOR SCL SETD STOD STOR TOFR TONR UPPER".split()
+    "BTDT CONCAT CTUD DEG DELETE DFF DTOS FIND HLL INSERT LADDER_CTD LADDER_CTU LADDER_RTO LADDER_TOF LADDER_TON LOWER MID "
+    "MVMT OSFI OSRI RAD RESD RTOR SCL SETD STOD STOR TOFR TONR UPPER".split()
 )
 """What it has for statements, in upper case."""
 TYPES = frozenset(

@@ -7,6 +7,10 @@ def other_language(routine: str, language: str) -> str:
     return f"the routine {routine} is written in {language}; it is left out"
 
 
+def not_in_ladder(routine: str, what: str) -> str:
+    return f"the routine {routine} has `{what}`, which is not read in a ladder; it is left out"
+
+
 def protected(routine: str) -> str:
     return f"the routine {routine} is encrypted; it is left out"
 

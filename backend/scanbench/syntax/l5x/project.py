@@ -7,8 +7,9 @@ from itertools import chain, count
 from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.aliases import aliases, typed, with_aliases
-from scanbench.syntax.l5x.declarations import data_type, section, sections, sizes_here, types_of_data
+from scanbench.syntax.l5x.declarations import ENABLED, data_type, section, sections, sizes_here, types_of_data
 from scanbench.syntax.l5x.known import Known, Parameter, Passed
+from scanbench.syntax.l5x.ladder import NotRead, structured, variables
 from scanbench.syntax.l5x.lines import contents, rungs, written
 from scanbench.syntax.l5x.names import CONTROLLER, ELEMENTARY, OWN, TYPES, name_of
 from scanbench.syntax.l5x.statements import TooDeep, passed_of, statements
@@ -20,7 +21,6 @@ ROOT = "RSLogix5000Content"
 LANGUAGES = {"RLL": "LD", "FBD": "FBD", "SFC": "SFC", "ST": "ST"}
 STUB = "{stub}\n"
 """In a POU whose statements are left out: it does not count as one that runs, and who uses it is told."""
-_ONLY_CALL = re.compile(r"\s*JSR\(\s*(\w+)\s*(?:,\s*0\s*)?\)\s*;\s*$")
 _HEAD = re.compile(rb"<RSLogix5000Content\b")
 
 
@@ -135,7 +135,7 @@ class _Reader:
                 left_out = STUB if read.refused else ""
             elif not read.refused:
                 read.notes.append(notes.unused(attribute(routine, "Name")))
-        return f"FUNCTION_BLOCK {name_of(name)}\n{left_out}{declared}{body}END_FUNCTION_BLOCK\n"
+        return f"FUNCTION_BLOCK {name_of(name)}\n{left_out}{declared}{variables(body)}{body}END_FUNCTION_BLOCK\n"
 
     def _program(self, node: Element) -> str:
         """A program, whose routines are its actions."""
@@ -164,7 +164,7 @@ class _Reader:
             elif not read.refused:
                 rest += f"ACTION {actions[of.upper()]}:\n{text}END_ACTION\n"
         declared = sections("VAR", tags, self._about_tags.notes)
-        return f"PROGRAM {name_of(name)}\n{left_out}{declared}{rest}{body}END_PROGRAM\n"
+        return f"PROGRAM {name_of(name)}\n{left_out}{declared}{variables(rest + body)}{rest}{body}END_PROGRAM\n"
 
     def _aliases_in(self, tags: list[Element]) -> dict[str, str]:
         """What aliases are written for in a program with these tags, which go before those of the controller."""
@@ -186,7 +186,7 @@ class _Reader:
         if next(children(routine, "EncodedData"), None) is not None or attribute(routine, "EncryptionConfig"):
             read.notes.append(notes.protected(attribute(routine, "Name")))
             read.refused = True
-        elif type != "ST" and not _calls_only(routine):
+        elif type not in ("ST", "RLL"):
             read.notes.append(notes.other_language(attribute(routine, "Name"), read.language))
             read.refused = True
         elif contents(routine) > 1:
@@ -241,7 +241,8 @@ def _required(node: Element) -> list[Parameter]:
     return [
         Parameter(attribute(each, "Name"), attribute(each, "Usage"))
         for each in children(child(node, "Parameters"), "Parameter")
-        if attribute(each, "Required") == "true" or attribute(each, "Usage") == "InOut"
+        if (attribute(each, "Required") == "true" and attribute(each, "Name") not in ENABLED)
+        or attribute(each, "Usage") == "InOut"
     ]
 
 
@@ -272,12 +273,6 @@ def _action(routine: str, taken: set[str]) -> str:
     return f"{name_of(routine)}_routine" if routine.upper() in taken else name_of(routine)
 
 
-def _calls_only(routine: Element) -> bool:
-    """Whether a ladder does nothing but call routines, whatever its conditions are not."""
-    found = rungs(routine)
-    return bool(found) and all(_ONLY_CALL.match(each) for each in found)
-
-
 def _passed(routines: Iterable[Element]) -> dict[str, Passed]:
     """What each routine in Structured Text is given and gives back, by its name in upper case."""
     texts = ((attribute(each, "Name").upper(), written(each)) for each in routines if attribute(each, "Type") == "ST")
@@ -287,10 +282,17 @@ def _passed(routines: Iterable[Element]) -> dict[str, Passed]:
 def _text(routine: Element, known: Known, read: Read) -> str:
     if read.refused:
         return ""
+    name = attribute(routine, "Name")
     try:
-        text = statements(written(routine), known, read.notes).rstrip("\n")
+        drawn = attribute(routine, "Type") == "RLL"
+        found = structured(rungs(routine), name_of(name), known) if drawn else written(routine)
+        text = statements(found, known, read.notes).rstrip("\n")
+    except NotRead as bad:
+        read.notes.append(notes.not_in_ladder(name, str(bad)))
+        read.refused = True
+        return ""
     except TooDeep:
-        read.notes.append(notes.too_deep(attribute(routine, "Name")))
+        read.notes.append(notes.too_deep(name))
         read.refused = True
         return ""
     return f"{text}\n" if text.strip() else ""
