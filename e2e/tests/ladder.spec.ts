@@ -61,6 +61,21 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByRole('option', { name: 'Contact go', exact: true })).toBeVisible();
   });
 
+  await test.step('Escape in a field leaves the rung as it is', async () => {
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    for (const key of ['F2', 'c']) {
+      await keyboard.press(key);
+      await keyboard.type('zzz');
+      // The first Escape would close the list of offers.
+      await expect(sheet.getByRole('combobox')).toHaveAttribute('aria-expanded', 'false');
+      await keyboard.press('Escape');
+      await expect(sheet).toBeFocused();
+      await expect(sheet.getByRole('combobox')).toHaveCount(0);
+      await expect(sheet.getByRole('option', { name: 'zzz' })).toHaveCount(0);
+    }
+    await expect(sheet.getByRole('option', { name: 'Contact go', exact: true })).toBeVisible();
+  });
+
   await test.step('it is built, and power flows where its contacts are closed', async () => {
     await mika.editor('Latch.st').build();
     await mika.watch.set('start', 'TRUE');

@@ -20,7 +20,10 @@ function openField(accepted: boolean, moves = false, value = "start") {
           if (moves) screen.getByRole("button", { name: "Build" }).focus();
           return Promise.resolve(accepted);
         }}
-        onLeave={() => done.push("leave")}
+        onLeave={() => {
+          done.push("leave");
+          if (moves) screen.getByRole("button", { name: "Build" }).focus();
+        }}
       />
       <button type="button">Build</button>
     </>,
@@ -62,6 +65,14 @@ test("what Enter takes is taken once, although the drawing takes the focus meanw
   await user.type(field, "stop{Enter}");
   await expect(entered()).resolves.toBe(true);
   expect(done).toEqual(["take stop"]);
+});
+
+test("Escape takes nothing, although the drawing takes the focus then", async () => {
+  const { user, done, field } = openField(true, true);
+  await user.clear(field);
+  await user.type(field, "zzz{Escape}");
+  await expect(entered()).resolves.toBe(true);
+  expect(done).toEqual(["leave"]);
 });
 
 test.each([

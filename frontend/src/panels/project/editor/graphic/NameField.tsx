@@ -78,6 +78,8 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
 
   /** The text is as it was. */
   function giveUp(): void {
+    // The drawing takes the focus: that blur takes nothing.
+    taken.current = true;
     entering(Promise.resolve(true));
     onLeave();
   }
