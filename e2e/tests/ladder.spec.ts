@@ -270,4 +270,24 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();
     await expect(mika.editor('Latch.st').line('> (on)')).toBeVisible();
   });
+
+  await test.step('what comes into the rung while a field is open stays, and so does what is typed', async () => {
+    await keyboard.press('Control+S');
+    const project = (await server.get<{ id: number }[]>('/projects'))[0]?.id;
+    const saved = () => server.get<{ text: string; version: number }>(`/projects/${project}/files/Latch.st`);
+    await expect.poll(async () => (await saved()).text).toContain('| [on]');
+    const { text, version } = await saved();
+    await sheet.getByRole('option', { name: 'Coil on' }).click();
+    await keyboard.press('F2');
+    await keyboard.type('ha');
+    const data = { text: text.replace('> (on)', '> [go] (on)'), version };
+    const file = new URL(`/api/projects/${project}/files/Latch.st`, page.url()).href;
+    expect((await page.request.put(file, { data })).status()).toBe(200);
+    await expect(sheet.getByRole('option', { name: 'Contact go' })).toBeVisible();
+    await expect(sheet.getByRole('combobox')).toBeFocused();
+    await keyboard.type('lt');
+    await keyboard.press('Enter');
+    await expect(sheet.getByRole('option', { name: 'Coil halt' })).toBeVisible();
+    await expect(sheet.getByRole('option', { name: 'Contact go' })).toBeVisible();
+  });
 });

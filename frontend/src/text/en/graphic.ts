@@ -114,6 +114,8 @@ export const graphic = {
   "graphic.field.bad.box": "No function, block or instance has this name.",
   "graphic.field.bad.other": "This does not fit here: write one name, value or expression.",
   "graphic.field.bad.step": "No step of this chart has this name.",
+  "graphic.field.lost":
+    "Somebody else changed or deleted this meanwhile. What you typed is not in the text: copy it, then Esc.",
   "graphic.keys": "Double-click or Enter names, Ctrl+Z takes back, F9 sets a breakpoint",
   "graphic.nothing": "nothing is connected here",
   "graphic.pin.input": "Input {name} of {box}: {value}",

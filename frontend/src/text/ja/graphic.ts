@@ -114,6 +114,8 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.field.bad.box": "この名前のファンクション、ブロック、インスタンスはありません。",
   "graphic.field.bad.other": "ここには合いません。名前、値、式を 1 つ書いてください。",
   "graphic.field.bad.step": "このチャートにこの名前のステップはありません。",
+  "graphic.field.lost":
+    "ほかの人がここを変更または削除しました。入力した文字はテキストに入っていません。コピーしてから Esc を押してください。",
   "graphic.keys": "ダブルクリックか Enter で名前、Ctrl+Z で元に戻す、F9 でブレークポイント",
   "graphic.nothing": "ここには何もつながっていません",
   "graphic.pin.input": "{box} の入力 {name}: {value}",

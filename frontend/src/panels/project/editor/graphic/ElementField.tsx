@@ -1,14 +1,15 @@
 import { wiresIn } from "../../../../logic/graphic/diagramEdit";
-import type { Around, Box, Edit, Naming } from "../../../../logic/graphic/edit";
+import type { Around, Box } from "../../../../logic/graphic/edit";
 import { spotOfPin } from "../../../../logic/graphic/ladderPins";
 import { inText } from "../../../../logic/graphic/places";
-import { type DrawnPart, type Spot, stopsOf } from "../../../../logic/graphic/sheet";
+import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import { loadBoxes, variablesAt } from "../../../../store/graphic/boxes";
 import { t } from "../../../../text";
 import type { Offer } from "../../../../ui/useOffers";
 import { sameElement } from "./cursor";
 import { NameField } from "./NameField";
 import { nameOfBoxPin, nameOfStop } from "./names";
+import type { Named } from "./reopened";
 
 interface Props {
   path: string;
@@ -18,7 +19,7 @@ interface Props {
   part: DrawnPart;
   /** How large it is drawn. */
   scale: number;
-  named: Edit & { naming: Naming };
+  named: Named;
   around: (part: DrawnPart) => Around;
   onTake: (text: string, onwards: boolean) => boolean;
   onLeave: () => void;
@@ -26,12 +27,12 @@ interface Props {
 
 /** The field of the element that is being named, with what it offers. */
 export function ElementField({ path, written, part, scale, named, around, onTake, onLeave }: Props) {
-  const { naming, place } = named;
+  const { naming, place, lost } = named;
   const { head } = naming;
-  const stop = head ? HEAD : stopsOf(part).find((each) => sameElement(each.place, place));
-  if (!stop) return null;
+  const found = head || lost ? undefined : stopsOf(part).find((each) => sameElement(each.place, place));
+  if (!head && !lost && !found) return null;
   const pinned =
-    naming.pin !== undefined && part.kind === "rung" && part.drawing
+    found && naming.pin !== undefined && part.kind === "rung" && part.drawing
       ? spotOfPin(part.drawing, place, naming.pin)
       : null;
   const at = inText(written, written.found.body.at);
@@ -61,10 +62,15 @@ export function ElementField({ path, written, part, scale, named, around, onTake
 
   return (
     <NameField
-      key={`${place.join(".")} ${head ?? naming.pin ?? naming.offers} ${named.text}`}
+      key={named.opened.id}
       naming={naming}
-      spot={head ? HEAD : scaled(pinned ?? stop, scale)}
-      label={head ? t(`graphic.head.${head}`) : (nameOfBoxPin(stop as Spot, naming.pin) ?? nameOfStop(stop as Spot))}
+      spot={found ? scaled(pinned ?? found, scale) : HEAD}
+      label={
+        found
+          ? (nameOfBoxPin(found, naming.pin) ?? nameOfStop(found))
+          : t(head ? `graphic.head.${head}` : "graphic.field.lost")
+      }
+      lost={lost}
       names={names}
       onTake={take}
       onLeave={onLeave}

@@ -29,7 +29,7 @@ import { t } from "../../../../text";
 import type { Pou, Problem } from "../../../../wire/types";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
-import { elementBeside, moved, sameElement } from "./cursor";
+import { type Cursor, elementBeside, moved, sameElement } from "./cursor";
 import { ElementField } from "./ElementField";
 import { Foot } from "./Foot";
 import { cursorAt, emptyAfter, isInSight, pinAt, placeInText, rangeInText } from "./find";
@@ -40,13 +40,14 @@ import { type Operand, operandAt, pressOperand } from "./operand";
 import { PartRow } from "./PartRow";
 import { layOnPaper, PAPER, usePrinted } from "./printed";
 import { Rename } from "./Rename";
+import { rowKey } from "./reopened";
 import { sheetOf } from "./sheets";
 import { svgFile } from "./svgFile";
 import { useCaret } from "./useCaret";
 import { useChosen } from "./useChosen";
 import { useDrag } from "./useDrag";
 import { useDrawingMenu } from "./useDrawingMenu";
-import { type Cursor, keyOf, useEditing } from "./useEditing";
+import { keyOf, useEditing } from "./useEditing";
 import { keepHeadings, placeOf, roomIn, useRows } from "./useRows";
 import { wrongIn } from "./wrong";
 
@@ -120,7 +121,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const { chosen } = choosing;
   const drag = useDrag({ path, drawn, readOnly, chosen, go, begin, around });
   const { named } = editing;
-  const { virtual, preview, rowAt } = useRows({ drawn, named, width: width ?? 0, sheet });
+  const { virtual, preview, rowAt } = useRows({ drawn, named: named?.lost ? null : named, width: width ?? 0, sheet });
 
   const target = useNavigation((navigation) => navigation.place);
   const turn = useRef(target?.turn);
@@ -261,6 +262,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     return true;
   }
 
+  const takeNow = useRef(takeName);
+  takeNow.current = takeName;
+
   function onClick(event: MouseEvent): void {
     const { target: on } = event;
     if (!(on instanceof Element)) return;
@@ -348,7 +352,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
             const pou = pouOf(rung);
             return (
               <div
-                key={item.key}
+                key={rowKey(item.index, named)}
                 data-index={item.index}
                 className="netplace"
                 style={placeOf(row, item.start, item.size, open !== null)}
@@ -373,7 +377,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                         scale={scale}
                         named={open}
                         around={around}
-                        onTake={takeName}
+                        onTake={(typed, onwards) => takeNow.current(typed, onwards)}
                         onLeave={leave}
                       />
                     ) : null

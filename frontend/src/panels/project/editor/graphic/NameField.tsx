@@ -12,6 +12,8 @@ interface Props {
   /** Where it is drawn. */
   spot: Pick<Spot, "x" | "y" | "width"> & { up?: number };
   label: string;
+  /** What is typed cannot be taken: somebody else changed the element meanwhile. */
+  lost?: boolean;
   /** What can be offered. */
   names: () => Promise<readonly Offer[]>;
   /** Whether the text was taken. */
@@ -25,9 +27,12 @@ const MOST = 60;
 const MODE = /^(?:\/|[SRPN] )?/;
 
 /** The name of an element, or the text of a box, where it is drawn. Enter takes it, Tab goes on to the next one, Escape leaves. */
-export function NameField({ naming, spot: { x, y, up = 10, width }, label, names, onTake, onLeave }: Props) {
-  const [text, setText] = useState(naming.value);
-  const [bad, setBad] = useState(false);
+export function NameField({ naming, spot: { x, y, up = 10, width }, label, lost, names, onTake, onLeave }: Props) {
+  /** Others may change the element meanwhile. */
+  const [opened] = useState(naming.value);
+  const [text, setText] = useState(opened);
+  const [refused, setBad] = useState(false);
+  const bad = lost || refused;
   const [waiting, setWaiting] = useState(false);
   /** The same at once: what is taken moves the focus before the field is drawn again. */
   const taken = useRef(false);
@@ -88,7 +93,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   function leave(): void {
     // Not when the whole window loses the focus.
     if (taken.current || document.activeElement === input.current) return;
-    if (bad || text === naming.value) giveUp();
+    if (refused || text === opened) giveUp();
     else void take(text, false);
   }
 
@@ -112,7 +117,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
 
   /** A list that nobody asked for is left with its field. */
   function onEscape(event: KeyboardEvent): void {
-    if (event.key !== "Escape" || text !== naming.value) return;
+    if (event.key !== "Escape" || text !== opened) return;
     event.stopPropagation();
     giveUp();
   }
@@ -157,7 +162,11 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
       </span>
       {bad && (
         <span className="hint bad" role="alert">
-          {t(`graphic.field.bad.${naming.offers === "box" || naming.offers === "step" ? naming.offers : "other"}`)}
+          {t(
+            lost
+              ? "graphic.field.lost"
+              : `graphic.field.bad.${naming.offers === "box" || naming.offers === "step" ? naming.offers : "other"}`,
+          )}
         </span>
       )}
     </span>

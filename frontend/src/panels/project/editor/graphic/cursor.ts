@@ -5,7 +5,11 @@ import { alongWire } from "../../../../logic/graphic/diagramPins";
 import type { Place, Way } from "../../../../logic/graphic/ladderLayout";
 import { next } from "../../../../logic/graphic/near";
 import { type DrawnPart, type Spot, spotsOf, stopsOf } from "../../../../logic/graphic/sheet";
-import type { Cursor } from "./useEditing";
+
+export interface Cursor {
+  rung: number;
+  place: Place;
+}
 
 const WAYS: Record<string, Way> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 

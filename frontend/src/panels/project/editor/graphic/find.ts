@@ -12,8 +12,7 @@ import { pinAtPoint } from "../../../../logic/graphic/ladderPins";
 import type { Found } from "../../../../logic/graphic/networks";
 import { holds, inText, stopIn } from "../../../../logic/graphic/places";
 import { type DrawnPart, placeOnWire, stepIn, stopsOf } from "../../../../logic/graphic/sheet";
-import { sameElement } from "./cursor";
-import type { Cursor } from "./useEditing";
+import { type Cursor, sameElement } from "./cursor";
 
 /** Whether all of a part is in sight, by what is known without looking at the page. */
 export function isInSight(virtual: Virtualizer<HTMLDivElement, Element>, index: number): boolean {

@@ -3,9 +3,8 @@
 import { useEffect } from "react";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { useDocuments } from "../../../../store/project/documents";
-import { sameElement } from "./cursor";
+import { type Cursor, sameElement } from "./cursor";
 import { placeOfCaret } from "./find";
-import type { Cursor } from "./useEditing";
 
 interface Followed {
   path: string;

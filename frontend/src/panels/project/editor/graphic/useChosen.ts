@@ -6,9 +6,8 @@ import type { Around, Made } from "../../../../logic/graphic/edit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { between, branched, textOf, without } from "../../../../logic/graphic/select";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
-import { moved, sameElement } from "./cursor";
+import { type Cursor, moved, sameElement } from "./cursor";
 import type { Several } from "./menu";
-import type { Cursor } from "./useEditing";
 import { putParts, removeParts, switchParts } from "./write";
 
 export interface Chosen {

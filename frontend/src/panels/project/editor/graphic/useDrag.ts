@@ -12,9 +12,8 @@ import type { Around, Made } from "../../../../logic/graphic/edit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { moved } from "../../../../logic/graphic/select";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
-import { sameElement } from "./cursor";
+import { type Cursor, sameElement } from "./cursor";
 import type { Chosen } from "./useChosen";
-import type { Cursor } from "./useEditing";
 import { movePart, writeParts } from "./write";
 
 interface Dragging {

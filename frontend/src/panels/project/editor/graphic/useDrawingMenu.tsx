@@ -5,11 +5,12 @@ import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { toggleBreakpointHere } from "../../../../store/debug/debugKeys";
 import { t } from "../../../../text";
 import { useMenu } from "../../../../ui/Menu";
+import type { Cursor } from "./cursor";
 import { cursorAt } from "./find";
 import { menuOf } from "./menu";
 import { type Forcing, forcingAt, NO_FORCING } from "./operand";
 import type { useChosen } from "./useChosen";
-import type { Cursor, useEditing } from "./useEditing";
+import type { useEditing } from "./useEditing";
 
 interface Drawing {
   path: string;

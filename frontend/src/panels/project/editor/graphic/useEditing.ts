@@ -1,24 +1,15 @@
 import { type KeyboardEvent, useState } from "react";
 import { copied, networksOf, pasted } from "../../../../logic/graphic/clip";
-import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit";
+import type { Around, Edit, Made } from "../../../../logic/graphic/edit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { readRung } from "../../../../logic/graphic/ladderRead";
 import { networksIn } from "../../../../logic/graphic/networks";
 import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import type { TextKey } from "../../../../text";
+import type { Cursor } from "./cursor";
 import { canPress, madeOf } from "./made";
+import { followed, type Named, opening } from "./reopened";
 import { addPart, putParts, removeParts, switchParts, takeBack, writePart } from "./write";
-
-export interface Cursor {
-  rung: number;
-  place: Place;
-}
-
-/** An element whose field is open. Its part is drawn with this text, which is written once the element has a name. */
-interface Named extends Edit {
-  rung: number;
-  naming: Naming;
-}
 
 interface Editing {
   path: string;
@@ -32,17 +23,20 @@ interface Editing {
 
 /** Edits the parts of a drawing by keys, or by what stands for one. */
 export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
-  const [named, setNamed] = useState<Named | null>(null);
+  const [open, setNamed] = useState<Named | null>(null);
+  const named = open && followed(open, drawn, around);
+  if (named !== open) setNamed(named);
   const [refused, setRefused] = useState<TextKey | null>(null);
 
-  /** Does an edit, or opens its field first. Whether there was one. */
-  function begin(at: number, made: Made): boolean {
+  /** Does an edit, or opens its field first. Whether there was one. `by`: the key that it is of, and what its part is by then. */
+  function begin(at: number, made: Made, by?: Begun): boolean {
     setRefused(made && "refused" in made ? made.refused : null);
     if (!made) return false;
     if ("refused" in made) return true;
-    const part = drawn[at];
+    const part = by?.part ?? drawn[at];
     const { naming } = made;
-    if (naming) setNamed({ ...made, naming, rung: at });
+    const { key = "", place = made.place, typed = [] } = by ?? {};
+    if (naming && part) setNamed(opening({ ...made, naming }, { key, place, typed }, { drawn, at, part }));
     else {
       setNamed(null);
       if (part) writePart(path, part.found, made.text, made.declares);
@@ -66,7 +60,8 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     else if (lower === "ctrl+l") go({ rung: at, place: [] });
     else if (lower === "ctrl+d") return put({ rung: at, place }, copied(part, place) ?? "");
     else if (part.kind !== "chart" && lower === "ctrl+/") switchParts(path, [part.found]);
-    else return !lower.startsWith("ctrl+") && begin(at, madeOf(part, key, place, around));
+    else
+      return !lower.startsWith("ctrl+") && begin(at, madeOf(part, key, place, around), { part, key, place, typed: [] });
     setRefused(null);
     return true;
   }
@@ -113,9 +108,10 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
 
   /** Takes what was typed into the field. Where the cursor is then; null where the text means nothing there. */
   function take(typed: string): Edit | null {
-    const part = named && drawn[named.rung];
+    const part = named && !named.lost && drawn[named.rung];
     const made = part ? named.naming.taken(typed, around(part)) : null;
-    if (named && made) begin(named.rung, made);
+    if (named && part && made)
+      begin(named.rung, made, { ...named.opened, typed: [...named.opened.typed, typed], part });
     return made;
   }
 
@@ -126,6 +122,14 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
   }
 
   return { named, refused, refuse: setRefused, can, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
+}
+
+/** What an edit is of. */
+interface Begun {
+  part: DrawnPart;
+  key: string;
+  place: Place;
+  typed: readonly string[];
 }
 
 /** A part with the text that was just written for it, before it is drawn. */
