@@ -1,7 +1,8 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { NoConnection } from "../../wire/rest";
 import type { VerificationInfo } from "../../wire/types";
 import { verify as wire } from "../../wire/verify";
-import { drive, onVerifications, resetVerify, setCell, useVerify } from "./verify";
+import { drive, fail, onVerifications, resetVerify, setCell, useVerify } from "./verify";
 
 const info = (memory: VerificationInfo["memory"], compared: number): VerificationInfo => ({
   id: 1,
@@ -91,4 +92,14 @@ it("does not bring back by an answer what was ended meanwhile", async () => {
   answer(info("set", 1));
   await driven;
   expect(known()).toEqual([]);
+});
+
+it("says that the connection is lost until the server tells something again, and a refusal until it is put away", () => {
+  fail(new NoConnection(true));
+  expect(useVerify.getState().trouble?.message).toContain("No connection");
+  onVerifications([info("recorded", 2)]);
+  expect(useVerify.getState().trouble).toBeNull();
+  fail(new Error("There is no scan 7."));
+  onVerifications([info("recorded", 3)]);
+  expect(useVerify.getState().trouble?.message).toBe("There is no scan 7.");
 });

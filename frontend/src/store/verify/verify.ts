@@ -5,7 +5,7 @@ import { messageOf } from "../../logic/format/messageOf";
 import { lineIn } from "../../logic/plc/sourceLines";
 import type { RangeWish } from "../../logic/verify/verify";
 import { t } from "../../text";
-import { Refused } from "../../wire/rest";
+import { NoConnection, Refused } from "../../wire/rest";
 import type { DriveVerification, NewVerification, VerificationInfo, VerificationRecord } from "../../wire/types";
 import { type ExportFormat, endingOf, type VerifySource, verify as wire } from "../../wire/verify";
 import { saveFile } from "../page/download";
@@ -27,7 +27,8 @@ interface Verify {
   id: number | null;
   record: VerificationRecord | null;
   asking: VerifyWish | null;
-  trouble: { message: string; near: readonly string[] } | null;
+  /** `lost`: no more than a lost connection, which goes as soon as the server tells something again. */
+  trouble: { message: string; near: readonly string[]; lost: boolean } | null;
 }
 
 const nothing: Verify = { verifications: [], id: null, record: null, asking: null, trouble: null };
@@ -84,8 +85,9 @@ export function onVerifications(verifications: readonly VerificationInfo[]): voi
 
 /** The first verification is shown automatically; later ones only if this browser began them. */
 function take(verifications: readonly VerificationInfo[]): void {
-  set(({ id }) => ({
+  set(({ id, trouble }) => ({
     verifications,
+    trouble: trouble?.lost ? null : trouble,
     id: verifications.some((known) => known.id === id) ? id : (verifications.at(-1)?.id ?? null),
   }));
 }
@@ -177,7 +179,8 @@ export async function verifyWholeProgram(): Promise<void> {
 // ---- driving ------------------------------------------------------------------------------------------------------
 
 export function fail(error: unknown): void {
-  set({ trouble: { message: messageOf(error), near: error instanceof Refused ? (error.refusal.near ?? []) : [] } });
+  const near = error instanceof Refused ? (error.refusal.near ?? []) : [];
+  set({ trouble: { message: messageOf(error), near, lost: error instanceof NoConnection } });
 }
 
 /** Why a request was refused, with similar names. */
