@@ -22,6 +22,19 @@ describe("explorer", () => {
     expect(groups[1]?.nodes[0]).toMatchObject({ shared: true });
   });
 
+  it("shows a method or property that has a file of its own by that file", () => {
+    const members: Pou[] = [
+      { name: "FB_Belt", kind: "function_block", file: "FB_Belt.st", line: 1 },
+      { name: "FB_Belt.Run", kind: "method", file: "FB_Belt.Run.st", line: 1 },
+      { name: "FB_Belt.Stop", kind: "method", file: "FB_Belt.st", line: 9 },
+    ];
+    const files = ["FB_Belt.st", "FB_Belt.Run.st"].map((path) => ({ path, version: 1, author: "Mika" }));
+    expect(pouGroups(members, files).map((group) => [group.kind, group.nodes.map((node) => node.name)])).toEqual([
+      ["function_block", ["FB_Belt"]],
+      ["file", ["FB_Belt.Run.st"]],
+    ]);
+  });
+
   it("shows global variables by their files", () => {
     const globals: Pou[] = [
       { name: "start", kind: "global", file: "Globals.st", line: 2 },

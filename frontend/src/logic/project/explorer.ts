@@ -52,10 +52,14 @@ export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo
   groups.push({ kind: "panel", nodes: panels.map(({ path }) => fileNode(path, panelName(path))) });
   const plant = files.filter(({ path }) => inPlant(path) && !isPanelFile(path));
   groups.push({ kind: "plant", nodes: plant.map(({ path }) => fileNode(path, path.replace(/^plant\//, ""))) });
-  const loose = files.filter(({ path }) => !perFile.has(path) && !isApart(path));
+  // A method, property or action may have a file of its own, as in a text export of CODESYS.
+  const shown = new Set(pous.filter(isListed).map(({ file }) => file));
+  const loose = files.filter(({ path }) => !shown.has(path) && !isApart(path));
   groups.push({ kind: "file", nodes: loose.map(({ path }) => fileNode(path, path)) });
   return groups.filter((group) => group.nodes.length > 0);
 }
+
+const isListed = ({ kind }: Pou) => (ORDER as readonly string[]).includes(kind);
 
 const libraryName = (path: string) => path.replace(/^libraries\//, "").replace(/\.st$/, "");
 
@@ -75,7 +79,7 @@ function globalFiles(globals: readonly Pou[]): PouNode[] {
 /** The declaration around the cursor, among those that the explorer shows: for a method it is its block. */
 export function shownAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
   return pouAt(
-    pous.filter((pou) => (ORDER as readonly string[]).includes(pou.kind) && pou.kind !== "global"),
+    pous.filter((pou) => isListed(pou) && pou.kind !== "global"),
     file,
     line,
   );
