@@ -31,5 +31,9 @@ class BothEngines:
                 engine.run(1)
             assert not first_difference(self._program, *self._memories)
 
+    def image(self) -> bytes:
+        """All of the memory."""
+        return bytes(self._memories[0])
+
     def values(self, *names: str) -> list[str]:
         return [find(self._program, name, self._memories[0])[2] for name in names]

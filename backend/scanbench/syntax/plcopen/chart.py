@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
-from scanbench.syntax.plcopen.elements import Thing, things_in
+from scanbench.syntax.plcopen.elements import Pin, Thing, ends_of, things_in
+from scanbench.syntax.plcopen.ladder import NoLadder, Rung
 from scanbench.syntax.xml_tree import Element, attribute, child, children
 
 INDENT = "    "
@@ -19,7 +20,7 @@ class Chart:
     body: Element
     body_text: BodyText
     conditions: dict[str, str]
-    """Named transitions of the POU, by upper-case name."""
+    """Bodies of the named transitions of the POU, by upper-case name."""
     notes: list[str] = field(default_factory=list)
     _things: dict[str, Thing] = field(default_factory=dict)
     _nodes: dict[str, Element] = field(default_factory=dict)
@@ -67,9 +68,7 @@ class Chart:
             return ""
         priority = attribute(self._nodes[each.id], "priority")
         said = f"(PRIORITY := {priority}) " if priority.isdigit() else ""
-        return (
-            f"TRANSITION {said}FROM {listed(sources)} TO {listed(targets)} := {self._condition(each)}; END_TRANSITION\n"
-        )
+        return f"TRANSITION {said}FROM {listed(sources)} TO {listed(targets)} {self._condition(each)} END_TRANSITION\n"
 
     def _before(self, each: Thing, way: tuple[Thing, ...] = ()) -> list[str]:
         """The steps that lead to it. `way`: from the transition to it."""
@@ -111,22 +110,54 @@ class Chart:
         return True
 
     def _condition(self, each: Thing) -> str:
+        """`:= expression;`, or `: ` and a rung."""
         node = child(self._nodes[each.id], "condition")
         name = attribute(child(node, "reference"), "name")
         if name:
-            return self.conditions.get(name.upper(), name)
+            return self._written(each, self.conditions.get(name.upper(), name))
         inline = child(node, "inline")
         if inline is not None:
-            return expression(self.body_text(inline))
+            return self._written(each, self.body_text(inline))
         point = child(node, "connectionPointIn")
-        ends = [attribute(one, "refLocalId") for one in children(point, "connection")]
+        ends = () if point is None else ends_of(point)
         values = [
-            self._things[end].name for end in ends if end in self._things and self._things[end].kind == "inVariable"
+            self._things[end].name for end, _ in ends if end in self._things and self._things[end].kind == "inVariable"
         ]
         if len(ends) == 1 and len(values) == 1:
-            return values[0]
+            return f":= {values[0]};"
+        try:
+            return self._drawn(each, ends)
+        except NoLadder:
+            return self._unread(each)
+
+    def _written(self, each: Thing, body: str) -> str:
+        """A body of its own: of drawn ones only one rung is a condition."""
+        if not body.startswith(("RUNG", "NETWORK")):
+            return f":= {expression(body)};"
+        if body.startswith("RUNG") and body.count("END_RUNG\n") == 1:
+            return f": {body.rstrip()}"
+        return self._unread(each)
+
+    def _drawn(self, each: Thing, ends: tuple[tuple[str, str], ...]) -> str:
+        """What is drawn beside the transition, from the rail; a last contact takes its power as the transition does."""
+        before: dict[str, Thing] = {}
+        left = [end for end, _ in ends]
+        while left:
+            thing = self._things.get(left.pop())
+            if thing is not None and thing.id not in before:
+                before[thing.id] = thing
+                left += [end for pin in thing.inputs for end, _ in pin.ends]
+        rails = {one.id for one in before.values() if one.kind == "leftPowerRail"}
+        group = sorted((one for one in before.values() if one.id not in rails), key=lambda one: one.place)
+        last = Thing("condition", "contact", each.line, each.place, inputs=[Pin("", ends=ends)])
+        path, last_one, after = Rung([*group, last], rails).elements().rpartition(" []")
+        if not last_one or after or "->" in path:
+            raise NoLadder
+        return f": RUNG\n{INDENT}{path}\nEND_RUNG"
+
+    def _unread(self, each: Thing) -> str:
         self.notes.append(notes.drawn_condition(each.line))
-        return "FALSE"
+        return ":= FALSE;"
 
 
 def expression(text: str) -> str:

@@ -86,7 +86,7 @@ def thing_of(node: Element, number: int) -> Thing:
         case "jumpStep":
             made.name = attribute(node, "targetName")
     if made.kind != "block":
-        made.inputs = [Pin("", ends=_ends(each)) for each in children(node, "connectionPointIn")]
+        made.inputs = [Pin("", ends=ends_of(each)) for each in children(node, "connectionPointIn")]
         made.outputs = [Pin(attribute(each, "formalParameter")) for each in children(node, "connectionPointOut")]
         made.outputs = made.outputs or [Pin("")]
     return made
@@ -97,7 +97,7 @@ def _pin(node: Element) -> Pin:
     expression = text_of(child(into, "expression")) or text_of(child(node, "connectionPointOut", "expression"))
     return Pin(
         attribute(node, "formalParameter"), _is_true(node, "negated"), _said(node, "edge"),
-        () if into is None else _ends(into), expression.strip(),
+        () if into is None else ends_of(into), expression.strip(),
     )  # fmt: skip
 
 
@@ -110,6 +110,7 @@ def _said(node: Element, name: str) -> str:
     return "" if found == "none" else found
 
 
-def _ends(point: Element) -> tuple[tuple[str, str], ...]:
+def ends_of(point: Element) -> tuple[tuple[str, str], ...]:
+    """The objects, and their outputs, that lead to a point."""
     found = children(point, "connection")
     return tuple((attribute(each, "refLocalId"), attribute(each, "formalParameter")) for each in found)

@@ -260,7 +260,7 @@ class Rung:
 
     def _reduce(self) -> None:
         while len(self._edges) > 1 or (self._edges and self._edges[0].start != RAIL):
-            if not (self._series() or self._parallel() or self._tails() or self._cut()):
+            if not (self._series() or self._parallel() or self._tails() or self._joint() or self._cut()):
                 raise NoLadder
 
     def _series(self) -> bool:
@@ -291,6 +291,31 @@ class Rung:
             if len(mine) > 1 and all(each.to == END for each in mine):
                 self._replace(mine, Edge(start, END, (branches(mine),), mine[0].order))
                 return True
+        return False
+
+    def _joint(self) -> bool:
+        """Several points that each lead to the same several points, and nowhere else, meet in one: all their power goes on to all of them."""
+        for first in self._edges:
+            targets = {each.to for each in self._edges if each.start == first.start}
+            into = [each for each in self._edges if each.to in targets]
+            starts = {each.start: each.order for each in reversed(into)}
+            ways = {(each.start, each.to) for each in self._edges if each.start in starts}
+            whole = {(start, to) for start in starts for to in targets}
+            if (
+                len(starts) < 2
+                or len(targets) < 2
+                or END in targets
+                or ways != whole
+                or any(each.path for each in into)
+            ):
+                continue
+            joint = f"joint {first.start}"
+            self._order[joint] = max(self._order.get(each, -1) for each in starts) + 0.05
+            after = {each.to: each.order for each in into}
+            self._edges = [each for each in self._edges if each not in into]
+            self._edges += [Edge(start, joint, (), order) for start, order in starts.items()]
+            self._edges += [Edge(joint, to, (), order) for to, order in after.items()]
+            return True
         return False
 
     def _cut(self) -> bool:

@@ -9,7 +9,7 @@ from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.language_file import LANGUAGE_FILE, DialectName, language_text
 from scanbench.syntax.parse_file import parse_file
 from scanbench.syntax.plcopen import notes
-from scanbench.syntax.plcopen.chart import Chart, expression
+from scanbench.syntax.plcopen.chart import Chart
 from scanbench.syntax.plcopen.declarations import (
     duration_text,
     section_text,
@@ -96,7 +96,7 @@ def _global_list(name: str, node: Element) -> str:
 def _pou(node: Element, read: Read) -> str:
     word = WORDS.get(attribute(node, "pouType"), "FUNCTION_BLOCK")
     conditions = {
-        attribute(each, "name").upper(): expression(_body(child(each, "body"), read))
+        attribute(each, "name").upper(): _body(child(each, "body"), read)
         for each in children(child(node, "transitions"), "transition")
     }
     actions = "".join(

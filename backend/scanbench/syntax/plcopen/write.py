@@ -153,7 +153,7 @@ def _pou(parent: Element, pou: tree.PouDeclaration, inputs: Mapping[str, tuple[s
 def _body(parent: Element, body: object, known: Known) -> None:
     match body:
         case Chart():
-            write_chart(Objects(add(parent, "SFC")), body)
+            write_chart(Objects(add(parent, "SFC")), body, known)
         case NetworkBody():
             _networks(parent, body, known)
         case tree.IlBody():

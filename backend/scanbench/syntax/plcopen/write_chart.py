@@ -3,17 +3,19 @@
 from collections.abc import Sequence
 
 from scanbench.syntax import chart, networks
-from scanbench.syntax.plcopen.write_objects import ROW, CannotWrite, End, Objects, add, paragraph, text
+from scanbench.syntax.plcopen.write_ladder import LadderWriter
+from scanbench.syntax.plcopen.write_objects import ROW, CannotWrite, End, Known, Objects, add, paragraph, text
 
 
-def write_chart(objects: Objects, written: chart.Chart) -> None:
+def write_chart(objects: Objects, written: chart.Chart, known: Known) -> None:
     """Steps and transitions in the order of the text; a transition to a step above is a jump."""
-    _Writer(objects, written).write()
+    _Writer(objects, written, known).write()
 
 
 class _Writer:
-    def __init__(self, objects: Objects, written: chart.Chart) -> None:
+    def __init__(self, objects: Objects, written: chart.Chart, known: Known) -> None:
         self._objects, self._chart = objects, written
+        self._ladder = LadderWriter(objects, known)
         self._order = {each.name.name.upper(): number for number, each in enumerate(written.steps)}
         self._steps: dict[str, str] = {}
         self._after: dict[str, End] = {}
@@ -60,8 +62,8 @@ class _Writer:
         return id, ""
 
     def _transition(self, each: chart.Transition) -> None:
-        if each.condition is None or isinstance(each.condition, networks.Rung):
-            raise CannotWrite("the condition of a transition as a rung")
+        if each.condition is None:
+            raise CannotWrite("a transition without a condition")
         names = [one.name.upper() for one in each.sources]
         if len(names) == 1:
             before = self._after[names[0]]
@@ -75,8 +77,11 @@ class _Writer:
         id, made = self._objects.make("transition", **priority)
         self._objects.connect(made, [before])
         add(made, "connectionPointOut")
-        inline = add(add(made, "condition"), "inline", name=each.name)
-        paragraph(add(inline, "ST"), text(each.condition))
+        condition = add(made, "condition")
+        if isinstance(each.condition, networks.Rung):
+            self._objects.connect(condition, self._ladder.condition(each.condition))
+        else:
+            paragraph(add(add(condition, "inline", name=each.name), "ST"), text(each.condition))
         self._lead([one.name.upper() for one in each.targets], (id, ""), max(self._order[name] for name in names))
 
     def _lead(self, targets: Sequence[str], end: End, above: int) -> None:

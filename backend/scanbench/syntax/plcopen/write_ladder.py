@@ -28,13 +28,26 @@ class LadderWriter:
         except CannotWrite as why:
             raise why.at(rung.span) from None
 
-    def _rung(self, rung: networks.Rung) -> None:
+    def condition(self, rung: networks.Rung) -> list[End]:
+        """The rung of a transition, drawn beside it: what gives the power at its end."""
+        made = list(networks.elements(rung.path))
+        if any(isinstance(each, networks.Leave) or (isinstance(each, networks.Link) and each.sends) for each in made):
+            raise CannotWrite("a jump or a link in the condition of a transition").at(rung.span)
+        try:
+            return self._draw(rung)
+        except CannotWrite as why:
+            raise why.at(rung.span) from None
+
+    def _draw(self, rung: networks.Rung) -> list[End]:
         if rung.off:
             raise CannotWrite("a rung that is switched off")
+        self._sent, self._turned, self._shared = {}, {}, False
+        return self._path(rung.path, [self.rail])
+
+    def _rung(self, rung: networks.Rung) -> None:
         self._objects.next_network()
         self._objects.head(rung.label, rung.span)
-        self._sent, self._turned, self._shared = {}, {}, False
-        self._path(rung.path, [self.rail])
+        self._draw(rung)
         if self._shared and not self._is_ladder():
             raise CannotWrite(
                 "a box with EN whose output goes on and is taken by a variable, in a rung that is read as a network: use its output in "

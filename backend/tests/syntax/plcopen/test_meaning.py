@@ -1,9 +1,12 @@
 """Drawings that read differently when a part of them is lost or moved: written and read again they compute the same, or they are refused."""
 
+import re
 from random import Random
 
 import pytest
 
+from scanbench.server.samples import templates
+from scanbench.syntax.parse_file import is_in_plant
 from scanbench.syntax.plcopen.project import read_project
 from scanbench.syntax.plcopen.write import Form, write_project
 from tests.caseformat import MODELS
@@ -113,3 +116,65 @@ def test_labels_of_empty_networks_stay(form: Form) -> None:
     body = "RUNG\n    [a] JMP two\nEND_RUNG\nRUNG one:\nEND_RUNG\nRUNG two:\nEND_RUNG\nRUNG three:\n    [/q] (q)\nEND_RUNG\nRUNG four:\nEND_RUNG\n"
     again = same(source_of(body), form)
     assert body in again
+
+
+BUTTONS = (
+    "start",
+    "stop",
+    "ack",
+    "guardOpen",
+    "inPlace",
+    "nozzleUp",
+    "nozzleDown",
+    "capperUp",
+    "capperDown",
+    "tight",
+    "bottle",
+)
+
+
+def test_a_machine_of_ladders_and_a_chart_has_the_same_memory_after_200_scans() -> None:
+    machine = next(each for each in templates() if each.id == "filling")
+    files = {name: text for name, text in machine.files.items() if not is_in_plant(name)}
+    written = write_project("Filling", files)
+    assert written.left_out == []
+    both = [BothEngines(each, MODELS[machine.model]) for each in (files, read_project(written.data).files)]
+    begun = both[0].image()
+    assert both[1].image() == begun
+    random = Random(18)
+    for _ in range(200):
+        sets = {
+            name: str(name != "guardOpen" and random.random() < 0.8).upper()
+            for name in BUTTONS
+            if random.random() < 0.3
+        }
+        for each in both:
+            each.run(1, **sets)
+    assert both[0].values("valve", "bottlesDone") != ["FALSE", "0"], "it did nothing"
+    assert both[0].image() == both[1].image()
+
+
+@pytest.mark.parametrize("rung", ["[a] [/b]", "< [a] | [b] >", "[a] < [/b] | [P a] >", "[P b]", "< [a] (done) | [b] >"])
+def test_the_rung_of_a_transition_stays_one(rung: str) -> None:
+    source = source_of(
+        f"INITIAL_STEP One:\nEND_STEP\nSTEP Two:\n    q(N);\nEND_STEP\nTRANSITION FROM One TO Two : RUNG\n    {rung.replace('done', 'q')}\n"
+        "END_RUNG END_TRANSITION\nTRANSITION FROM Two TO One := b; END_TRANSITION\n"
+    )
+    assert "TRANSITION FROM One TO Two : RUNG\n" in same(source, Form.TC6)
+
+
+def test_a_body_of_a_transition_as_a_rung_is_read() -> None:
+    """As other tools write it: a named transition, or a body within the chart."""
+    source = source_of(
+        "INITIAL_STEP One:\nEND_STEP\nSTEP Two:\nEND_STEP\nTRANSITION FROM One TO Two := a; END_TRANSITION\n"
+        "TRANSITION FROM Two TO One := b; END_TRANSITION\n"
+    )
+    data = write_project("Own", {"Main.st": source}).data.decode()
+    st = re.search(r"<inline name=\"[^\"]*\">\s*<ST>.*?</ST>\s*</inline>", data, re.DOTALL)
+    assert st is not None
+    drawn = (
+        '<inline name=""><LD><leftPowerRail localId="1"><connectionPointOut formalParameter=""/></leftPowerRail><contact localId="2">'
+        '<connectionPointIn><connection refLocalId="1"/></connectionPointIn><connectionPointOut/><variable>b</variable></contact></LD></inline>'
+    )
+    main = read_project(data.replace(st.group(), drawn, 1).encode()).files["Main.st"]
+    assert "TRANSITION FROM One TO Two : RUNG\n    [b]\nEND_RUNG END_TRANSITION\n" in main

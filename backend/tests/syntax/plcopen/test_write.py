@@ -22,8 +22,20 @@ GRAPHICAL = [case for case in ALL if DRAWN.search(case.source) and not case.file
 """Those that name no line of their text."""
 SCHEMA = etree.XMLSchema(etree.parse(Path(__file__).parent / "tc6_xml_v201.xsd"))
 """As PLCopen published it for TC6 2.01; this copy is that of the package plcopen 1.0.1."""
-NOT_WRITTEN = 13
-"""So many of these cases have something that PLCopen has no form for. Whoever writes one makes the number smaller."""
+NOT_WRITTEN = {
+    "charts/edges and loops of actions remember, each instance for itself; an address is an action",
+    "diagrams/a loop with a number, and its type",
+    "diagrams/jumps of a diagram, rungs beside it, and a wire that a box sets",
+    "diagrams/types that a wire says, EN on a wire, and a subrange",
+    "diagrams/networks have wires of their own, with types of their own",
+    "diagrams/a loop through an output of a block",
+    "diagrams/a loop through an output of a different type than BOOL",
+    "diagrams/outputs of a FUNCTION and a method go to wires",
+    "ladder/a jump forward is taken at the end of its rung",
+    "ladder/a rung that is switched off",
+    "ladder/a method in rungs, and a block that inherits rungs with edges",
+}
+"""Cases with something that PLCopen's TC6 has no form for: it is left out, and told."""
 
 
 def again(case: Case, form: Form = Form.TC6) -> tuple[Case, list[str]]:
@@ -34,15 +46,12 @@ def again(case: Case, form: Form = Form.TC6) -> tuple[Case, list[str]]:
 
 @pytest.mark.parametrize("form", Form)
 @pytest.mark.parametrize("case", GRAPHICAL, ids=[each.name for each in GRAPHICAL])
-def test_a_case_runs_as_before(case: Case, form: Form) -> None:
+def test_a_case_runs_as_before_or_is_told(case: Case, form: Form) -> None:
     made, left = again(case, form)
+    if form is Form.TC6:
+        assert bool(left) == (case.name in NOT_WRITTEN), left
     if not left:
         run_case(made, [ReferenceEngine])
-
-
-def test_most_is_written() -> None:
-    left = {case.name: found for case in GRAPHICAL if (found := again(case)[1])}
-    assert len(left) <= NOT_WRITTEN, left
 
 
 def test_inputs_that_are_given_by_their_place_have_names() -> None:
