@@ -18,8 +18,8 @@ MEMORIES = {
     "SD": ("SD",), "DS": ("DS",), "SL": ("SL",),
 }  # fmt: skip
 """What an action keeps for each of its qualifiers, BOOL each; a timed one also has whether its time runs, since when, and how long."""
-IN_ACTION = "/"
-"""In the name of a hidden variable: between the ACTION whose chart has it, and what it is of."""
+OF = "/"
+"""In the name of a hidden variable: between the POU, the ACTION whose chart has it, and what it is of."""
 
 
 @node
@@ -110,14 +110,17 @@ def uses(chart: Chart) -> tuple[Use, ...]:
 
 def kept(chart: Chart, name: str, what: str) -> str:
     """The hidden variable of an action: its Q, what a qualifier remembers; of a timed one `L.on`, `L.since` and `L.time`.
-    Each chart of a POU has a control of its own."""
-    return f"${chart.action}{IN_ACTION}{name}.{what}" if chart.action else f"${name}.{what}"
+    Each chart of a POU has a control of its own, and so has one that takes the place of a chart of a base."""
+    pou = chart.owner.removesuffix(f".{chart.action}")
+    return f"${OF.join((pou, chart.action, name))}.{what}"
 
 
 def controls(name: str, members: Iterable[str]) -> list[str]:
-    """Of members of an instance, those that are Q of this action, one for each chart that names it; all in upper case."""
-    own, inner = f"${name}.Q".upper(), f"{IN_ACTION}{name}.Q".upper()
-    return [each for each in members if each == own or each.endswith(inner)]
+    """Of members of an instance, those of bases first, the Q of this action in each chart that names it; all in upper
+    case. A chart that a POU has in place of one of its base counts, not that one."""
+    ends = f"{OF}{name}.Q".upper()
+    found = [each for each in members if each.startswith("$") and each.endswith(ends)]
+    return list({each.split(OF)[1]: each for each in found if each.count(OF) == 2}.values())
 
 
 def begun(chart: Chart) -> str:

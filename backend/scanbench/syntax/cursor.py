@@ -57,7 +57,7 @@ class Cursor:
         self.wires: set[str] | None = None
         """In a function block diagram: the wires that were read, in upper case. Elsewhere `#x` is a variable of one vendor."""
         self.wall = -1
-        """A word, else a name, that ends what is read now: END_RUNG, or the step after an ACTION that nothing closes."""
+        """The token at which reading stops although it could be a name: END_RUNG, or the step after an ACTION without END_ACTION; else -1."""
         self.parts = False
         """Whether a start value may name parts at any depth, `(a.b := 1, c[2] := 3)`: in the texts of one vendor."""
         self.actions: list[tuple[str, Span, list[tree.PouDeclaration]]] = []

@@ -44,6 +44,13 @@ REFUSED = [
     ("r := TO_BIG_ENDIAN(r);", "T002", "Take its bits with REAL_TO_DWORD first."),
     ("b := IS_VALID(x);", "T002", "`IS_VALID` needs a REAL or LREAL, not INT."),
     ("x := INT_TO_FOO(3);", "T001", "`FOO` is no type to convert."),
+    (
+        "x := UPPER_BOUND(B := 1, A := a);",
+        "T004",
+        "`UPPER_BOUND` takes an array, ARR, and the number of a dimension, DIM.",
+    ),
+    ("x := LOWER_BOUND(FOO := a, ZOO := 1);", "T004", "`LOWER_BOUND` takes an array, ARR, and"),
+    ("x := LOWER_BOUND(DIM := 1, 1);", "T004", "`LOWER_BOUND` takes an array, ARR, and"),
     ("x := MAXX(1, 2);", "T001", "Did you mean `MAX`?"),
     ("x := __CODE_AT(s, 1);", "T001", "There is no function `__CODE_AT`."),
     ("b := LEN(s) > 3 AND IS_VALID_BCD(LEN(s));", "T002", "LWORD"),

@@ -38,7 +38,7 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
     body.effects.assignable(body, place, member, target.span)
     null = isinstance(value, tree.Name) and value.name.upper() == "NULL"
     if null or isinstance(value, tree.Literal | tree.Call):
-        bound = body.expression(value, type)
+        bound = body.expression(value, replace(type, automatic=True))
         if not null and is_untyped(bound) and not (isinstance(bound, Const) and bound.value == 0):
             raise body.report.reject(
                 "T002", f"`REF=` binds `{shown(target)}` to a variable; for a value write `{shown(target)} := {shown(value)}`.",

@@ -15,7 +15,7 @@ from scanbench.check.body.il_operands import type_of
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.context import Rejected
 from scanbench.problems import Severity, Span
-from scanbench.program.types import BOOL, Record, Type, has_instance
+from scanbench.program.types import BOOL, INT, Record, Type, has_instance
 from scanbench.program.untyped import settle
 from scanbench.syntax import networks, tree
 
@@ -164,18 +164,35 @@ class FunctionBlocks:
             mark = self._report.mark()
             with suppress(Rejected):  # told below, or reported
                 self._code.run(tree.Assignment(item.target, value, item.span))
-            found_wrong = self._report.problems[mark[0] :]
-            if wire.type is None and any(each.code == "T002" and "BOOL" in each.message for each in found_wrong):
+            wrong = [each for each in self._report.problems[mark[0] :] if each.severity is Severity.ERROR]
+            if wrong and wire.type is None and all(each.code == "T002" for each in wrong):
                 self._report.undo(mark)
-                message = f"`{wire.name}` is read above its line, so it is BOOL unless the line says a type: write `{wire.name} : INT = ...`."
-                raise self._report.reject("T002", message, wire.span)
-            if any(each.severity is Severity.ERROR for each in found_wrong):
+                self._check_type(wire, value)
+                self._code.run(tree.Assignment(item.target, value, item.span))  # tells it again
+            if wrong:
                 raise Rejected
             return
         found = settle(self._body.expression(value))
         if found.type is None or has_instance(found.type):
             raise self._report.reject("T002", "This gives no value, so a wire cannot have it.", item.span)
         self._code.store(self._code.wire(wire.name, found.type, wire.span), found, item.span)
+
+    def _check_type(self, wire: networks.Wire, value: tree.Expression) -> None:
+        """Refuses a wire that is read above its line and says no type where its value is no BOOL, or is
+        calculated from the wire itself."""
+        mark, key = self._report.mark(), wire.name.upper()
+        others, self._body.unmade = self._body.unmade, self._body.unmade | {key}
+        kept = self._body.scope.wires.pop(key)
+        try:
+            type = settle(self._body.expression(value)).type
+        except Rejected:  # for the wire itself nothing is reported
+            type = None if self._report.mark()[0] > mark[0] else INT
+        finally:
+            self._body.unmade, self._body.scope.wires[key] = others, kept
+            self._report.undo(mark)
+        if type is not None and type != BOOL:
+            message = f"`{wire.name}` is read above its line, so it is BOOL unless the line says a type: write `{wire.name} : {type} = ...`."
+            raise self._report.reject("T002", message, wire.span)
 
 
 def _wires_of(item: networks.Item) -> Iterator[str]:

@@ -10,7 +10,7 @@ from scanbench.check.body.elements import array_bounds, index_value
 from scanbench.check.body.heap import FORMS as HEAP_FORMS
 from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
-from scanbench.check.body.references import reference_type
+from scanbench.check.body.references import reference_type, target_of
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.vendor_forms import UNSUPPORTED, WHY, vendor_form
@@ -67,10 +67,13 @@ def _explicit_check(body: Body, node: tree.Call, name: str) -> Expr:
 def _bound_of(body: Body, node: tree.Call, upper: bool) -> Expr:
     """`LOWER_BOUND(array, dimension)` and `UPPER_BOUND`."""
     name = "UPPER_BOUND" if upper else "LOWER_BOUND"
-    given = sorted(node.arguments, key=lambda each: (each.name or "").upper())  # ARR, DIM
-    values = [argument.value for argument in given if argument.value is not None]
-    if len(values) != 2 or len(node.arguments) != 2:
-        raise body.report.reject("T004", f"`{name}` takes an array and the number of a dimension.", node.span)
+    formal = [(argument.name or "").upper() for argument in node.arguments]
+    values = [argument.value for argument in node.arguments if argument.value is not None and not argument.output]
+    if len(values) != 2 or len(formal) != 2 or sorted(formal) not in (["", ""], ["ARR", "DIM"]):
+        message = f"`{name}` takes an array, ARR, and the number of a dimension, DIM."
+        raise body.report.reject("T004", message, node.span)
+    if formal[0] == "DIM":
+        values.reverse()
     place, _ = body.place(values[0])
     if not isinstance(place.type, ArrayType | OpenArray):
         raise body.report.reject("T002", f"`{name}` needs an array, not {place.type}.", node.span)
@@ -107,11 +110,15 @@ def _reference_to(body: Body, node: tree.Call, name: str) -> Expr:
 
 
 def _reference_to_result(body: Body, call: tree.Call, pointer: bool) -> Expr | None:
-    """A reference to a copy of what a call gives, which lasts as a variable of the call does; None where the dialect has none."""
-    if body.pou is None or not allowed(body, Allowance.LOCAL_ADDRESSES, call.span, "The result of a call is temporary"):
+    """A reference to what a REFERENCE TO of a call refers to; else to a copy of what the call gives, which lasts as a
+    variable of the call does. None where the dialect has none."""
+    value = settle(body.expression(call, replace(NULL, automatic=True)))
+    if isinstance(value.type, Reference) and value.type.automatic:
+        target = target_of(body, value, call.span, shown(call))
+        return RefOf(target, reference_type(target.type, pointer))
+    if body.pou is None or not isinstance(value.type, Elementary | StringType):
         return None
-    value = settle(body.expression(call))
-    if isinstance(value.type, Reference) or not isinstance(value.type, Elementary | StringType):
+    if not allowed(body, Allowance.LOCAL_ADDRESSES, call.span, "The result of a call is temporary"):
         return None
     copy = body.temporary(value.type, call.span)
     body.pou.addressed = True

@@ -65,8 +65,8 @@ def is_automatic(value: Expr) -> bool:
 
 
 def at_target(body: Body, value: Expr, wanted: Type | None, node: tree.Expression) -> Expr:
-    """What a REFERENCE TO that was given refers to, unless a reference is wanted; any other value as it is."""
-    if isinstance(wanted, Reference) or not is_automatic(value):
+    """What a REFERENCE TO that was given refers to, unless a REFERENCE TO is wanted; any other value as it is."""
+    if not is_automatic(value) or (isinstance(wanted, Reference) and wanted.automatic):
         return value
     return Load(target_of(body, value, node.span, shown(node)))
 

@@ -50,6 +50,7 @@ def variant_of(body: Body, node: tree.Expression, type: Record, what: str) -> Ex
         "ELEMENT": Const(UDINT, number_of(given.element) if isinstance(given, ArrayType) else 0),
         "COUNT": Const(UDINT, given.count if isinstance(given, ArrayType) else 0),
         "SIZE": Const(UDINT, given.element.size if isinstance(given, ArrayType) else given.size),
+        "LETTERS": Const(UDINT, given.capacity if isinstance(given, StringType) else 0),
     }
     stores = [Assign(inside(made, type, type.members[key]), value, node.span) for key, value in values.items()]
     return Sequence(tuple(stores), Load(made))
