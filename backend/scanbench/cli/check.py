@@ -83,7 +83,7 @@ def _checked(
         # what is wrong in the files of a project that this one refers to is told of that project
         found |= dict.fromkeys(each for each in problems if program.own is None or _of(program.own, each.span.file))
         if report:
-            reports.append(program_report(program.texts, problems, program.missing, program.own))
+            reports.append(program_report(program.texts, problems, program.missing, program.own, program.absent))
     return tuple(found), reports
 
 

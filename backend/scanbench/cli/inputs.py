@@ -39,6 +39,8 @@ ARCHIVE = ".zip"
 DIALECT_HELP = (
     f"Dialect of the programs: {', '.join(DIALECTS)}; else language.json's, else that of the files' format, else iec."
 )
+NAMED = 5
+"""Names in one message."""
 PARTLY = 4
 """Exit code where what was looked at is right, but not all could be: a run file is damaged, say, and a part of the run is lost."""
 
@@ -51,6 +53,8 @@ class Sources:
     model: str | None
     missing: tuple[str, ...] = ()
     """Libraries that a project of TwinCAT refers to, of which there is no text."""
+    absent: tuple[str, ...] = ()
+    """Files that it compiles, and that nobody has."""
     own: frozenset[str] | None = None
     """Where this is one of several programs: its own files, without those of the projects that it refers to."""
 
@@ -123,7 +127,8 @@ def read_programs(paths: list[Path], dialect: str | None = None) -> list[Sources
 
 def _completed(texts: dict[str, str], read: _Read, projects: list[TwinCatProject], libraries: bool) -> Sources:
     made = completed(texts, projects, str(read.folder)) if libraries else texts
-    return Sources(made, read.model, tuple(unknown_libraries(projects, made)))
+    absent = tuple(file for project in projects for file in project.absent)
+    return Sources(made, read.model, tuple(unknown_libraries(projects, made)), absent)
 
 
 def _read(paths: list[Path], dialect: str | None) -> _Read:
@@ -143,7 +148,9 @@ def _read(paths: list[Path], dialect: str | None) -> _Read:
             texts |= {str(each): read_text(each) for each in program_files(path)}
             model = model or project_model(path)
             packages += package_files(path)
-            projects |= twincat_projects(path) if path.is_dir() else {}
+            found = twincat_projects(path) if path.is_dir() else {}
+            _tell_absent(found)
+            projects |= found
     except Refused as error:
         usage(str(error))
     folder = paths[0] if paths[0].is_dir() or paths[0].suffix.lower() == ARCHIVE else paths[0].parent
@@ -159,6 +166,17 @@ def _read(paths: list[Path], dialect: str | None) -> _Read:
             f"scanbench: {of_format} programs by the format of their files (--dialect names a different one)", err=True
         )
     return _Read(texts, model, folder, projects)
+
+
+def _tell_absent(projects: Mapping[str, TwinCatProject]) -> None:
+    for path, project in projects.items():
+        if count := len(project.absent):
+            files = "a file that is" if count == 1 else f"{count} files that are"
+            named = ", ".join(project.absent[:NAMED]) + (f" and {count - NAMED} more" if count > NAMED else "")
+            typer.echo(
+                f"scanbench: {path} lists {files} not there: {named}. What is declared in such a file is only inferred from its use",
+                err=True,
+            )
 
 
 def _bytes(path: Path) -> bytes:

@@ -49,13 +49,15 @@ def _causes(report: ProgramReport) -> Iterator[str]:
 
 
 def _libraries(report: ProgramReport) -> Iterator[str]:
-    if not (report.libraries or report.missing or report.stubs):
+    if not (report.libraries or report.missing or report.absent or report.stubs):
         return
     yield "<h2>Libraries</h2>\n"
     if report.libraries:
         yield f"<p>Their texts are in the project: {escape(', '.join(report.libraries))}.</p>\n"
     if report.missing:
         yield f"<p>Missing, so that their names are not known: {escape(', '.join(report.missing))}.</p>\n"
+    if report.absent:
+        yield f"<p>Files that the project lists and that are missing: {escape(', '.join(report.absent))}.</p>\n"
     if report.stubs:
         rows = [tr(td(str(each.span), "mono"), td(each.message)) for each in report.stubs]
         yield _table(("First use", "Stub"), rows)

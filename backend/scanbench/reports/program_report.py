@@ -82,6 +82,8 @@ class ProgramReport:
     """Those that it refers to and has no text of."""
     stubs: tuple[Problem, ...]
     """What is told of each stub that it uses."""
+    absent: tuple[str, ...] = ()
+    """Files that its project lists and nobody has."""
 
 
 WORD = re.compile(r"[A-Za-z_]\w*")
@@ -94,9 +96,10 @@ def program_report(
     problems: Sequence[Problem],
     missing: Collection[str] = (),
     own: Collection[str] | None = None,
+    absent: Collection[str] = (),
 ) -> ProgramReport:
-    """The report of a program of these files, in which its check found these problems. `missing` are libraries without a text. With
-    `own`, only these files are reported, and what is wrong in them."""
+    """The report of a program of these files, in which its check found these problems. `missing` are libraries without a text, `absent`
+    files of the project that nobody has. With `own`, only these files are reported, and what is wrong in them."""
     texts, defined = program_files(sources), defined_in(sources)
     trees = {name: parse_file(Source(name, text, defined=defined))[0] for name, text in texts.items()}
     files = _files(trees, texts, problems)
@@ -111,6 +114,7 @@ def program_report(
         tuple(sorted(library for name in texts if (library := library_of_file(name)))),
         tuple(missing),
         tuple(each for each in problems if each.code == STUB),
+        tuple(absent),
     )
 
 
@@ -130,6 +134,7 @@ def joined(reports: Sequence[ProgramReport]) -> ProgramReport:
         tuple(sorted({each for report in reports for each in report.libraries})),
         tuple(sorted({each for report in reports for each in report.missing}, key=str.lower)),
         tuple(each for report in reports for each in report.stubs),
+        tuple(dict.fromkeys(each for report in reports for each in report.absent)),
     )
 
 
@@ -258,6 +263,8 @@ def report_lines(report: ProgramReport) -> list[str]:
         lines.append("a program runs when none of its files has an error")
     if report.missing:
         lines += ["", f"missing libraries: {', '.join(report.missing)}"]
+    if report.absent:
+        lines += ["", f"files that the project lists and that are missing: {', '.join(report.absent)}"]
     if report.libraries:
         lines += ["", f"libraries: {', '.join(report.libraries)}"]
     if report.stubs:
@@ -306,7 +313,8 @@ def report_json(report: ProgramReport) -> dict[str, object]:
     ]
     stubs = [{"place": str(each.span), "message": each.message} for each in report.stubs]
     libraries, missing = list(report.libraries), list(report.missing)
-    return {"files": files, "causes": causes, "libraries": libraries, "missing_libraries": missing, "stubs": stubs}
+    about = {"libraries": libraries, "missing_libraries": missing, "missing_files": list(report.absent)}
+    return {"files": files, "causes": causes, **about, "stubs": stubs}
 
 
 def whole_of(reports: Sequence[FileReport]) -> FileReport:

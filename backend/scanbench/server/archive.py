@@ -116,7 +116,8 @@ def _twincat_project(name: str, files: Mapping[str, str]) -> dict[str, str]:
 
 
 def _windows(path: str) -> str:
-    return escape(path.replace("/", "\\"))
+    """With `%28` and the like for the signs that MSBuild has a meaning for."""
+    return escape(re.sub(r"[%$@'();?*]", lambda sign: f"%{ord(sign[0]):02X}", path.replace("/", "\\")))
 
 
 def unpack(data: bytes) -> Archive:

@@ -18,7 +18,7 @@ _CONFIGURATION = re.compile(r"^\s*CONFIGURATION\b", re.IGNORECASE | re.MULTILINE
 def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (), folder: str = "") -> dict[str, str]:
     """The files of a project at `folder`, with the texts of the libraries that they use. The names of these TwinCAT projects, whose
     files are among them, may be written before other names, what they define is defined, and their tasks are a CONFIGURATION.
-    Where they refer to libraries that nobody has, or name in quotes of SCL, or as a module of Logix, what no file declares, placeholders take the places of these.
+    Where they refer to libraries or compile files that nobody has, or name in quotes of SCL, or as a module of Logix, what no file declares, placeholders take the places of these.
 
     Nothing is different in the strict language, which has no libraries.
     """
@@ -31,14 +31,22 @@ def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (),
         made.setdefault(str(PurePath(folder, FILE)), tasks)
     if (names or defines) and any(map(is_language_file, made)):
         made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)), defines)
-    libraries = used_libraries(made, dialect_of(made)[0])
-    made |= {str(PurePath(folder, each.path)): each.text for each in libraries}
+    made |= _texts_of_libraries(made, projects, folder)
     return _with_placeholders(made, projects, folder)
 
 
+def _texts_of_libraries(files: Mapping[str, str], projects: Collection[TwinCatProject], folder: str) -> dict[str, str]:
+    """Those that the files use. Where these projects refer to a library that nobody has, a name may be of that: then only a library
+    to which they refer gives names, and what it needs itself."""
+    referred = {name for project in projects for name, _ in project.references}
+    only = referred if unknown_libraries(projects, files) else None
+    libraries = used_libraries(files, dialect_of(files)[0], only)
+    return {str(PurePath(folder, each.path)): each.text for each in libraries}
+
+
 def _with_placeholders(made: dict[str, str], projects: Collection[TwinCatProject], folder: str) -> dict[str, str]:
-    """The files with what their use says of the names of libraries that they refer to and nobody has."""
-    missing = unknown_libraries(projects, made)
+    """The files with what their use says of the names of libraries and files that they refer to and nobody has."""
+    missing = [*unknown_libraries(projects, made), *(file for project in projects for file in project.absent)]
     quoted = seldom_declared(made, dialect_of(made)[0])
     path = str(PurePath(folder, PATH))
     if not (missing or quoted) or path in made:
@@ -51,8 +59,7 @@ def _with_placeholders(made: dict[str, str], projects: Collection[TwinCatProject
     if names and any(map(is_language_file, made)):
         made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)))
     made = made | {path: found[0]}
-    libraries = used_libraries(made, dialect_of(made)[0])
-    return made | {str(PurePath(folder, each.path)): each.text for each in libraries}
+    return made | _texts_of_libraries(made, projects, folder)
 
 
 def unknown_libraries(projects: Collection[TwinCatProject], files: Iterable[str]) -> list[str]:

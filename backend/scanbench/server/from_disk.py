@@ -5,7 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from scanbench.server.project_files import OWN_FILES
-from scanbench.server.twincat_project import ENDING, TwinCatProject, left_out, read_twincat_project, with_tasks
+from scanbench.server.twincat_project import (
+    ENDING,
+    TwinCatProject,
+    left_out,
+    read_twincat_project,
+    with_absent,
+    with_tasks,
+)
 from scanbench.server.twincat_tasks import ENDING as TASKS
 from scanbench.syntax.language_file import PACKAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
@@ -52,11 +59,11 @@ def _is_text(path: Path) -> bool:
 
 def twincat_projects(folder: Path) -> dict[str, TwinCatProject]:
     """What the project files of TwinCAT in a folder and below say, by path."""
-    found = (each for each in sorted(folder.rglob(f"*{ENDING}")) if each.is_file())
-    tasks = {
-        str(each): read_text(each) for each in folder.rglob("*") if each.suffix.lower() == TASKS and each.is_file()
-    }
-    return {str(each): with_tasks(str(each), read_twincat_project(read_text(each)), tasks) for each in found}
+    files = sorted(each for each in folder.rglob("*") if each.is_file())
+    tasks = {str(each): read_text(each) for each in files if each.suffix.lower() == TASKS}
+    made = {str(each): read_twincat_project(read_text(each)) for each in files if each.suffix.lower() == ENDING}
+    names = [*map(str, files)]
+    return {path: with_absent(path, with_tasks(path, each, tasks), names) for path, each in made.items()}
 
 
 def package_files(path: Path) -> list[str]:

@@ -2,9 +2,10 @@
 
 import posixpath
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from html import unescape
+from urllib.parse import unquote
 
 from scanbench.server.twincat_tasks import Task, read_task
 from scanbench.syntax.parse_file import XML_ENDINGS
@@ -35,6 +36,8 @@ class TwinCatProject:
     """Names that are defined for conditional pragmas."""
     tasks: tuple[Task, ...] = ()
     """Those whose files were given."""
+    absent: tuple[str, ...] = ()
+    """Of the compiled paths, those of program files that nobody has."""
 
 
 def is_twincat_project(path: str) -> bool:
@@ -45,7 +48,8 @@ def is_twincat_project(path: str) -> bool:
 def read_twincat_project(text: str) -> TwinCatProject:
     """What the text of the file says; of one that is damaged what can still be found."""
     text = _COMMENT.sub("", text)
-    compiled = tuple(unescape(path).replace("\\", "/") for path in _COMPILED.findall(text))
+    # MSBuild writes `%28` for `(`, as its own syntax has that: learn.microsoft.com/visualstudio/msbuild/msbuild-special-characters
+    compiled = tuple(unquote(unescape(path)).replace("\\", "/") for path in _COMPILED.findall(text))
     references = [(unescape(name).strip(), inside) for name, inside in _REFERENCE.findall(text)]
     named = {name: (_NAMESPACE.findall(inside) or [name])[0] for name, inside in references if name}
     names = dict.fromkeys(unescape(name) for name in _NAMES.findall(_REFERENCE.sub("", text)) if name)
@@ -60,6 +64,15 @@ def with_tasks(path: str, project: TwinCatProject, texts: Mapping[str, str]) -> 
     paths = (posixpath.normpath(posixpath.join(folder, each)).lower() for each in project.compiled)
     found = (read_task(known[each]) for each in paths if each in known)
     return replace(project, tasks=tuple(each for each in found if each is not None))
+
+
+def with_absent(path: str, project: TwinCatProject, files: Iterable[str]) -> TwinCatProject:
+    """The project of this path, which says what it compiles that is not among these files."""
+    folder = posixpath.dirname(path.replace("\\", "/"))
+    known = {each.replace("\\", "/").lower() for each in files}
+    wanted = (each for each in project.compiled if each.lower().endswith(XML_ENDINGS))
+    absent = (each for each in wanted if posixpath.normpath(posixpath.join(folder, each)).lower() not in known)
+    return replace(project, absent=tuple(dict.fromkeys(absent)))
 
 
 def left_out(paths: Collection[str], projects: Mapping[str, TwinCatProject]) -> set[str]:

@@ -36,6 +36,13 @@ WHOLE_PROJECT = "*"
 _KEYS = ("version", "dialect", "namespaces", "defines", "subranges")
 _PATH = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*")
 _TWINCAT_MARKS = re.compile(r"\bTc[23]_\w+|\bT_MaxString\b|\bT_AmsNetId\b")
+_TWINCAT_2_MARKS = re.compile(
+    r"\b(FB_Socket\w+|ADS(READ|WRITE|RDSTATE|LOG\w+)\w*|MEM(SET|CPY|CMP|MOVE)|SystemTaskInfo(Arr)?|FB_FileOpen|FB_LocalSystemTime|NT_GetTime)\b",
+    re.IGNORECASE,
+)
+"""What libraries of TwinCAT 2 declare; in a text of CODESYS 2.3 they say whose it is, where nothing declares them itself."""
+_EXPORTED = re.compile(r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION)\s*:=", re.MULTILINE)
+"""What CODESYS 2.3, and TwinCAT 2 with it, write into each `.exp`."""
 _CODESYS_MARKS = re.compile(
     r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
 )
@@ -105,7 +112,7 @@ def with_dialect_by_format(
 
     `others` are names of files beside them, which may say whose tool wrote them: a package of SIMATIC AX has `.st` files, too.
     """
-    of_format = "codesys" if is_export(sources) else dialect_by_format(sources)
+    of_format = dialect_by_text(sources)
     if of_format == STRICT and any(map(is_package, others)):
         of_format = "siemens"
     if of_format == STRICT or any(map(is_language_file, sources)):
@@ -240,13 +247,27 @@ def dialect_by_format(names: Iterable[str]) -> DialectName:
     return STRICT
 
 
+def dialect_by_text(sources: Mapping[str, str]) -> DialectName:
+    """The same, of formats that only the texts tell: exports of CODESYS. Nothing is guessed by what any program may have."""
+    if is_export(sources):
+        return "codesys"
+    exported = [text for name, text in sources.items() if name.lower().endswith(".exp") and _EXPORTED.search(text)]
+    if exported:
+        return "twincat" if any(map(_of_twincat_2, exported)) else "codesys"
+    return dialect_by_format(sources)
+
+
+def _of_twincat_2(text: str) -> bool:
+    return _TWINCAT_MARKS.search(text) is not None or _TWINCAT_2_MARKS.search(text) is not None
+
+
 def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> DialectName:
     """The dialect that imported programs are probably written in; `others` are files that were not taken over."""
     names = [name.lower() for name in (*files, *others)]
     if (of_format := dialect_by_format(names)) != STRICT:
         return of_format
     programs = [text for name, text in files.items() if is_program_file(name)]
-    if any(map(_TWINCAT_MARKS.search, programs)):
+    if any(map(_TWINCAT_MARKS.search, programs)) or dialect_by_text(files) == "twincat":
         return "twincat"
     exported = is_export(files) or any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):

@@ -27,6 +27,7 @@ from scanbench.syntax.language_file import (
     language_of,
     language_text,
     with_dialect,
+    with_dialect_by_format,
     with_namespaces,
 )
 from tests.caseformat import MODELS
@@ -482,6 +483,7 @@ def test_what_people_type_is_understood_in_the_dialect_of_the_program() -> None:
         ({"POUs/Main.TcPOU": ""}, "twincat"),
         ({"a.st": "VAR x : T_MaxString; END_VAR"}, "twincat"),
         ({"a.exp": ""}, "codesys"),
+        ({"a.EXP": "(* @PATH := '' *)\nPROGRAM MAIN\nVAR fb : FB_SocketConnect; END_VAR"}, "twincat"),
         ({"a.st": "(* @NESTEDCOMMENTS := 'Yes' *)\nPROGRAM Main"}, "codesys"),
         ({"a.st": "{attribute 'qualified_only'}\nVAR_GLOBAL\nEND_VAR"}, "codesys"),
         ({"a.st": "", "b.scl": ""}, "siemens"),
@@ -492,6 +494,14 @@ def test_what_people_type_is_understood_in_the_dialect_of_the_program() -> None:
 )
 def test_the_dialect_of_imported_files_is_guessed(files: dict[str, str], dialect: DialectName) -> None:
     assert guess_dialect(files) == dialect
+
+
+def test_an_export_of_codesys_2_needs_no_name_of_its_dialect() -> None:
+    export = "(* @PATH := '' *)\nPROGRAM Main\nVAR b : BYTE; END_VAR\n(* @END_DECLARATION := '0' *)\nb := b + 1;\nEND_PROGRAM\n"
+    assert dialect_of(with_dialect_by_format({"a.EXP": export}))[0] == "codesys"
+    assert dialect_of(with_dialect_by_format({"a.EXP": export + "(* MEMSET(ADR(b), 0, 1) *)"}))[0] == "twincat"
+    assert dialect_of(with_dialect_by_format({"a.exp": "PROGRAM Main\nEND_PROGRAM\n"}))[0] == "iec"
+    assert check_sources(with_dialect_by_format({"a.EXP": export}), MODELS["GENERIC-IEC"]).program is not None
 
 
 def test_the_page_of_the_docs_has_the_table_of_the_code() -> None:

@@ -145,3 +145,36 @@ def test_projects_that_are_no_program_together_are_reported_one_by_one(project: 
     assert [line for line in wrong.stdout.splitlines() if " W0" not in line] == [
         f"{project}/parts/Twice.TcPOU:2:82: T001 `y` is not declared."
     ]
+
+
+def test_files_with_signs_that_msbuild_escapes_are_read_and_missing_ones_are_said_once(project: Path) -> None:
+    file = project / "line/Line.plcproj"
+    listed = '<Compile Include="POUs\\MAIN.TcPOU" /><Compile Include="Sub%20%28Base%29\\F_One.TcPOU" />'
+    gone = '<Compile Include="DUTs\\ST_Gone%27s.TcDUT" />'
+    file.write_text(PROJECT.format(compiled=listed + gone).replace("Parts,*,somebody", "Tc2_Standard"))
+    (project / "line/Sub (Base)").mkdir()
+    (project / "line/Sub (Base)/F_One.TcPOU").write_text(exported("FUNCTION F_One : INT", "F_One := 1;"))
+    (project / "line/POUs/MAIN.TcPOU").write_text(
+        exported("PROGRAM MAIN\nVAR n : INT; e : (First, Last) := First; s : ST_Gone; END_VAR",
+                 "n := n + F_One();\nIF e = First THEN e := Last; s.count := n; END_IF")
+    )  # fmt: skip
+    found = scanbench("check", str(project / "line"), "--report")
+    assert (found.returncode, "2 of 2 POUs (100.0 %) run" in found.stdout) == (0, True), found
+    assert found.stderr.count("DUTs/ST_Gone's.TcDUT") == 1
+    assert "lists a file that is not there" in found.stderr
+    assert "files that the project lists and that are missing: DUTs/ST_Gone's.TcDUT" in found.stdout
+    ran = scanbench("run", str(project / "line"), "--scans", "3", "--print", "MAIN.n", "--print", "MAIN.s.count")
+    assert (ran.returncode, ran.stdout.split()) == (0, ["MAIN.n", "=", "3", "MAIN.s.count", "=", "1"]), ran
+
+
+def test_a_library_to_which_a_project_does_not_refer_gives_no_names_where_one_is_missing(project: Path) -> None:
+    file = project / "line/Line.plcproj"
+    compiled = PROJECT.format(compiled='<Compile Include="POUs\\MAIN.TcPOU" />')
+    main = exported("PROGRAM MAIN\nVAR c : E_PMLCommand; s : T_MaxString; END_VAR", "c := E_PMLCommand.Abort;")
+    (project / "line/POUs/MAIN.TcPOU").write_text(main)
+    file.write_text(compiled.replace("Parts,*,somebody", "Tc3_PackML_V3"))
+    found = scanbench("check", str(project / "line"))
+    assert (found.returncode, "`E_PMLCommand` is a placeholder" in found.stdout) == (0, True), found
+    file.write_text(compiled.replace("Parts,*,somebody", "Tc3_PackML_V2"))
+    known = scanbench("check", str(project / "line"))
+    assert (known.returncode, "has no value `Abort`" in known.stdout) == (1, True), known

@@ -101,6 +101,7 @@ def test_files_of_twincat_go_out_with_their_project_file_and_come_in_from_it() -
     files = {
         "POUs/MAIN.TcPOU": POU,
         "POUs/R&D/Fb.TcPOU": POU,
+        "POUs/50 % (old);'s/G.TcPOU": POU,
         "DUTs/T.TcDUT": POU,
         "Extra.st": MAIN,
         "Operation.panel.json": "{}",
@@ -113,10 +114,17 @@ def test_files_of_twincat_go_out_with_their_project_file_and_come_in_from_it() -
     root = ElementTree.fromstring(project)
     space = {"m": "http://schemas.microsoft.com/developer/msbuild/2003"}
     listed = {each.get("Include") for each in root.iterfind("m:ItemGroup/m:Compile", space)}
-    assert listed == {"POUs\\MAIN.TcPOU", "POUs\\R&D\\Fb.TcPOU", "DUTs\\T.TcDUT"}
+    escaped = "POUs\\50 %25 %28old%29%3B%27s"
+    assert listed == {
+        "POUs\\MAIN.TcPOU",
+        "POUs\\R&D\\Fb.TcPOU",
+        f"{escaped}\\G.TcPOU",
+        "DUTs\\T.TcDUT",
+    }
     assert {each.get("Include") for each in root.iterfind("m:ItemGroup/m:Folder", space)} == {
         "POUs",
         "POUs\\R&D",
+        escaped,
         "DUTs",
     }
     assert "CompilerDefines" not in project
@@ -125,5 +133,5 @@ def test_files_of_twincat_go_out_with_their_project_file_and_come_in_from_it() -
         assert read_twincat_project(archive.read("Line.plcproj").decode()).defines == ("Fast", "Heater")
     # what another tool takes by the project file: the files of TwinCAT, each found
     found = unpack(zipped(without))
-    assert set(found.files) == {"POUs/MAIN.TcPOU", "POUs/R&D/Fb.TcPOU", "DUTs/T.TcDUT"}
+    assert set(found.files) == {path for path in files if path.endswith((".TcPOU", ".TcDUT"))}
     assert found.left_out == ("Extra.st",)

@@ -6,7 +6,7 @@ changed, so no run depends on which version of a library Scanbench has later.
 
 import posixpath
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -58,7 +58,9 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "Util": ("codesys", "twincat"),
 }
 """Each name, and the dialects that it is written in."""
-UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
+ALWAYS = frozenset("__HEAP __SYSTEM IBaseLibrary TwinCAT_SystemInfoVarList".split())
+"""Those that a project of TwinCAT has without a reference."""
+UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo", "SYSTEMTASKINFOARR": "SystemTaskInfoArr"}
 """Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
 NEEDED_BY = {
     "__HEAP": frozenset({"__NEW", "__DELETE"}),
@@ -141,11 +143,16 @@ def library_of_file(path: str) -> str | None:
     return stem if posixpath.basename(folder) == FOLDER and point and ending.lower() == "st" else None
 
 
-def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Library]:
-    """The libraries of the dialect that declare what these programs name and do not have themselves; those that they use as well."""
+def used_libraries(
+    sources: Mapping[str, str], dialect: DialectName, only: Collection[str] | None = None
+) -> list[Library]:
+    """The libraries of the dialect that declare what these programs name and do not have themselves; those that they use as well.
+    With `only`, what a program names is of these libraries, in any case, or of those that every project has."""
     possible = _of_dialect(dialect)
     if not possible:
         return []
+    named = None if only is None else {each.lower() for each in (*only, *ALWAYS)}
+    first = [each for each in possible if named is None or each.name.lower() in named]
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
     known = defined_in(sources)
     files = [parse_file(Source(path, text, defined=known))[0] for path, text in texts.items()]
@@ -153,13 +160,12 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
     have = {library.lower() for path in texts if (library := library_of_file(path))}
     wanted = {word for text in texts.values() for word in _words(text)} - own
     wanted |= {f"{word.partition('.')[0]}." for word in wanted if "." in word}
-    found: list[Library] = []
-    grown = True
-    while grown:
+    found = [each for each in first if not wanted.isdisjoint(each.named_by)]
+    fresh = found
+    while fresh:
+        wanted = {word for each in fresh for word in each.words}
         fresh = [each for each in possible if each not in found and not wanted.isdisjoint(each.named_by)]
-        found += fresh
-        wanted |= {word for each in fresh for word in each.words}
-        grown = bool(fresh)
+        found = found + fresh
     return [each for each in found if each.name.lower() not in have]
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from scanbench.check.placeholders.shapes import Member, Shape, Signature, Unknown, join, named, of_type, variables
-from scanbench.check.placeholders.world import CONVERSION, ENUMERATION, INSTRUCTIONS, LABELS, World
+from scanbench.check.placeholders.world import CONVERSION, ENUMERATION, INSTRUCTIONS, LABELS, World, declared_in
 from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import GLOBAL_MARK
@@ -23,7 +23,7 @@ class Body:
         self.local: dict[str, tree.TypeSpec] = {}
         bases = [each for each in world.bases(pou) if isinstance(each, tree.PouDeclaration)]
         for each in (*reversed(bases), pou, *around):
-            self.local |= {variable.name.upper(): variable.type for _, variable in variables(each)}
+            self.local |= declared_in(each)
             for inner in each.methods:
                 if inner.kind != "method" and inner.result is not None:
                     self.local.setdefault(inner.name.upper(), inner.result)

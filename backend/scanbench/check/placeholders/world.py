@@ -31,6 +31,19 @@ _OPERATORS = frozenset(
 )
 
 
+def values_in_place(spec: tree.TypeSpec) -> dict[str, tree.TypeSpec]:
+    """By name in upper case, the values of an enumeration that is declared with a variable: of no type with a name, so of its numbers."""
+    if not isinstance(spec, tree.EnumSpec):
+        return {}
+    return {name.upper(): spec.base or tree.NamedType("INT", span) for name, _, span in spec.values}
+
+
+def declared_in(pou: tree.PouDeclaration) -> dict[str, tree.TypeSpec]:
+    """The types of its variables, and those of the values of enumerations that are declared with them, by name in upper case."""
+    values = {name: spec for _, each in variables(pou) for name, spec in values_in_place(each.type).items()}
+    return values | {each.name.upper(): each.type for _, each in variables(pou)}
+
+
 class World:
     """The declarations of all files, and what was found of names that none has."""
 
@@ -49,7 +62,7 @@ class World:
         self.functions: dict[str, tree.PouDeclaration] = {}
         self.globals: dict[str, tree.TypeSpec] = {}
         self.lists: set[str] = set()
-        self.values: dict[str, tree.NamedType] = {}
+        self.values: dict[str, tree.TypeSpec] = {}
         self.prefixes = {*prefixes, *(each.upper() for each in missing)}
         self.unknown: dict[str, Unknown] = {}
         self.unknown_functions: dict[str, tuple[str, Signature]] = {}
@@ -69,6 +82,9 @@ class World:
             if isinstance(each.type, tree.EnumSpec):
                 for name, _, span in each.type.values:
                     self.values.setdefault(name.upper(), tree.NamedType(each.name, span))
+            if isinstance(each.type, tree.StructSpec):
+                for member in each.type.members:
+                    self.values |= values_in_place(member.type)
         for pou in file.pous:
             table = self.functions if pou.kind == "function" else self.types
             table[pou.name.upper()] = pou
@@ -76,6 +92,7 @@ class World:
         for section in file.globals:
             self.lists |= {section.list_name.upper()} if section.list_name else set()
             for variable in section.variables:
+                self.values |= values_in_place(variable.type)
                 self.globals.setdefault(variable.name.upper(), variable.type)
                 if section.list_name:
                     self.globals[f"{section.list_name}.{variable.name}".upper()] = variable.type
