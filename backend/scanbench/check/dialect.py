@@ -27,6 +27,7 @@ class Allowance(Enum):
     STRING_BYTES = auto()
     ARGUMENT_NAMES = auto()
     CHAINED_ASSIGNMENT = auto()
+    ASSIGNED_VALUES = auto()
     RETURN_CONDITION = auto()
     BARE_CALLS = auto()
     BLOCK_VARIABLES = auto()

@@ -88,6 +88,11 @@ RULES: dict[Allowance, Rule] = {
         "an assignment has one variable",
         "`b := c; a := b;`",
     ),
+    Allowance.ASSIGNED_VALUES: Rule(
+        "an assignment as a value, `IF ready := (i = 3) THEN`",
+        "an assignment is a statement, and has no value",
+        "`ready := i = 3; IF ready THEN`",
+    ),
     Allowance.CHAINED_APART: Rule(
         "variables of different types in several assignments in one, and an index that is assigned as well",
         "an assignment has one variable",

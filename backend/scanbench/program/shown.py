@@ -40,5 +40,5 @@ def _part(size: str, index: int) -> str:
 
 OPERATORS = {
     "add": "+", "sub": "-", "mul": "*", "div": "/", "mod": "MOD", "pow": "**", "and": "AND", "or": "OR", "xor": "XOR",
-    "eq": "=", "ne": "<>", "lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and_then": "AND_THEN", "or_else": "OR_ELSE",
+    "assign": ":=", "eq": "=", "ne": "<>", "lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and_then": "AND_THEN", "or_else": "OR_ELSE",
 }  # fmt: skip

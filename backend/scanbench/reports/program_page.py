@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from html import escape
 
 from scanbench.reports.page import Page, Words, table, td, th, tr
-from scanbench.reports.program_report import FileReport, ProgramReport, pou_lines, whole_of
+from scanbench.reports.program_report import FileReport, ProgramReport, pou_lines, stubs_alike, whole_of
 
 MOST_PLACES = 5
 """Places that are named of each cause."""
@@ -46,6 +46,9 @@ def _causes(report: ProgramReport) -> Iterator[str]:
             tr(td(cause.pous, "num"), td(len(cause.places), "num"), td(what), f'<td class="mono">{places}{rest}</td>')
         )
     yield _table(("POUs", "Places", "What", "Where"), rows)
+    if report.waiting:
+        yield "<p>Without an error of their own, and stopped by what they need:</p>\n"
+        yield _table(("POU", "Where"), [tr(td(each.pou), td(str(each.place), "mono")) for each in report.waiting])
 
 
 def _libraries(report: ProgramReport) -> Iterator[str]:
@@ -59,8 +62,9 @@ def _libraries(report: ProgramReport) -> Iterator[str]:
     if report.absent:
         yield f"<p>Files that the project lists and that are missing: {escape(', '.join(report.absent))}.</p>\n"
     if report.stubs:
-        rows = [tr(td(str(each.span), "mono"), td(each.message)) for each in report.stubs]
-        yield _table(("First use", "Stub"), rows)
+        for said, found in stubs_alike(report):
+            yield f"<p>{escape(said)}</p>\n"
+            yield _table(("Stub", "First use"), [tr(td(name), td(str(place), "mono")) for name, place in found])
 
 
 def _files(report: ProgramReport) -> Iterator[str]:
@@ -71,7 +75,7 @@ def _files(report: ProgramReport) -> Iterator[str]:
 
 
 def _row(file: FileReport) -> str:
-    counts = file.pous, file.run, file.stubbed, file.clean, file.supported.total(), file.refused.total(), file.errors
+    counts = file.pous, file.run, file.aided, file.clean, file.supported.total(), file.refused.total(), file.errors
     return tr(td(file.name), *(td(count, "num") for count in counts))
 
 

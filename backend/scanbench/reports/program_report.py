@@ -2,8 +2,8 @@
 
 import re
 from bisect import bisect
-from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections import Counter, deque
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.build import program_files
@@ -34,6 +34,8 @@ class FileReport:
     """Of these, POUs that use a stub, by whatever way."""
     placeheld: int
     """Of those that run, POUs that use a placeholder of a missing library, by whatever way."""
+    aided: int
+    """Of those that run, POUs that use one or the other."""
     supported: Counter[str]
     refused: Counter[str]
     errors: int
@@ -47,8 +49,11 @@ class _Unit:
     names: tuple[str, ...]
     """What others use of it, in upper case."""
     is_pou: bool
+    name: str = ""
+    """As it is written, of a POU."""
     stub: bool = False
-    wrong: bool = False
+    wrong: Span | None = None
+    """Where its first error is."""
     own: frozenset[str] = frozenset()
     """Its variables, in upper case: such a word in its text is no use of anything else."""
     words: set[str] = field(default_factory=set)
@@ -69,6 +74,15 @@ class Cause:
 
 
 @dataclass(frozen=True, slots=True)
+class Waiting:
+    """A POU without an error of its own that does not run."""
+
+    pou: str
+    place: Span
+    """Where the first error is of what it needs, by whatever way."""
+
+
+@dataclass(frozen=True, slots=True)
 class ProgramReport:
     """What is said of a whole program."""
 
@@ -84,9 +98,12 @@ class ProgramReport:
     """What is told of each stub that it uses."""
     absent: tuple[str, ...] = ()
     """Files that its project lists and nobody has."""
+    waiting: tuple[Waiting, ...] = ()
+    """In the order of the files."""
 
 
 WORD = re.compile(r"[A-Za-z_]\w*")
+_PLACES = re.compile(r" It is used in \d+ places\.$")
 _NAMED = re.compile(r"`[^`]*`")
 STUB = "W008"
 
@@ -102,9 +119,8 @@ def program_report(
     files of the project that nobody has. With `own`, only these files are reported, and what is wrong in them."""
     texts, defined = program_files(sources), defined_in(sources)
     trees = {name: parse_file(Source(name, text, defined=defined))[0] for name, text in texts.items()}
-    files = _files(trees, texts, problems)
+    files, waiting = _files(trees, texts, problems, own)
     if own is not None:
-        files = [each for each in files if each.name in own]
         problems = [each for each in problems if each.span.file in own]
     some = any(each.pous for each in files)  # a library stops at nothing where no program is
     errors = [each for each in problems if each.severity is Severity.ERROR and not (some and each.code == OF_THE_WHOLE)]
@@ -115,6 +131,7 @@ def program_report(
         tuple(missing),
         tuple(each for each in problems if each.code == STUB),
         tuple(absent),
+        tuple(waiting),
     )
 
 
@@ -135,6 +152,7 @@ def joined(reports: Sequence[ProgramReport]) -> ProgramReport:
         tuple(sorted({each for report in reports for each in report.missing}, key=str.lower)),
         tuple(each for report in reports for each in report.stubs),
         tuple(dict.fromkeys(each for report in reports for each in report.absent)),
+        tuple(each for report in reports for each in report.waiting),
     )
 
 
@@ -161,35 +179,46 @@ def _causes(errors: Sequence[Problem], trees: Mapping[str, tree.File]) -> tuple[
     return tuple(sorted(made, key=_rank))
 
 
-def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
-    """A report of every file, by the problems that its check found."""
+def _files(
+    files: Mapping[str, tree.File],
+    texts: Mapping[str, str],
+    problems: Sequence[Problem],
+    wanted: Collection[str] | None,
+) -> tuple[list[FileReport], list[Waiting]]:
+    """A report of every file that is wanted, by the problems that its check found; and what does not run without an error of its own."""
     errors = [each for each in problems if each.severity is Severity.ERROR]
     units = {name: _units(file, texts[name], errors) for name, file in files.items()}
     every = [each for own in units.values() for each in own]
     _join(every, files.values())
-    stopped = _reached(every, [each for each in every if each.wrong])
+    stopped = _reached(every, [each for each in every if each.wrong is not None])
     stubbed = _reached(every, [each for each in every if each.stub])
     held = [each for name, own in units.items() if library_of_file(name) == PLACEHOLDERS for each in own]
     placeheld = _reached(every, held)
-    made = []
+    made, waiting = [], []
     for name, file in files.items():
-        if library_of_file(name):
+        if library_of_file(name) or (wanted is not None and name not in wanted):
             continue
         own = [each for each in errors if each.span.file == name]
         refused = Counter(each.message for each in own if each.code == REFUSED)
         pous = [each for each in units[name] if each.is_pou]
-        clean = sum(not each.wrong for each in pous)
+        clean = [each for each in pous if each.wrong is None]
+        causes = ((each, stopped[id(each)].wrong) for each in clean if id(each) in stopped)
+        waiting += [Waiting(each.name, place) for each, place in causes if place is not None]
         run = [each for each in pous if id(each) not in stopped and not each.stub]
         with_stubs = sum(id(each) in stubbed for each in run)
         with_held = sum(id(each) in placeheld for each in run)
-        counts = len(pous), clean, len(run), with_stubs, with_held
+        aided = sum(id(each) in stubbed or id(each) in placeheld for each in run)
+        counts = len(pous), len(clean), len(run), with_stubs, with_held, aided
         made.append(FileReport(name, *counts, count_constructs(file), refused, len(own) - refused.total()))
-    return made
+    return made, waiting
 
 
 def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]:
     """What a file declares, in order, with the errors that are in the lines of each."""
-    made = [_Unit(each.span.line, (each.name.upper(),), True, each.stub, own=_variables(each)) for each in file.pous]
+    made = [
+        _Unit(each.span.line, (each.name.upper(),), True, each.name, each.stub, own=_variables(each))
+        for each in file.pous
+    ]
     made += [_Unit(each.span.line, (each.name.upper(),), is_pou=False) for each in file.types]
     for member in file.members:
         own = frozenset[str]().union(*map(_variables, member.methods))
@@ -201,7 +230,7 @@ def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]
     for error in errors:
         at = bisect(begins, error.span.line) - 1
         if error.span.file == file.name and at >= 0 and error.code != OF_THE_WHOLE:
-            made[at].wrong = True
+            made[at].wrong = made[at].wrong or error.span
     lines = text.split("\n")
     for each, end in zip(made, [*begins[1:], len(lines) + 1], strict=False):  # a file may declare nothing
         code = NO_CODE.sub(" ", "\n".join(lines[each.line - 1 : end - 1]))
@@ -229,19 +258,20 @@ def _variables(pou: tree.PouDeclaration) -> frozenset[str]:
     return frozenset(each.name.upper() for section in pou.sections for each in section.variables)
 
 
-def _reached(units: Sequence[_Unit], first: Sequence[_Unit]) -> set[int]:
-    """The units, by identity, that are among the first ones or use one of them, by whatever way."""
+def _reached(units: Sequence[_Unit], first: Sequence[_Unit]) -> dict[int, _Unit]:
+    """The units, by identity, that are among the first ones or use one of them, by whatever way; each with the one that it uses."""
     users: dict[str, list[_Unit]] = {}
     for each in units:
         for word in each.words:
             users.setdefault(word, []).append(each)
-    open_ = list(first)
-    reached = {id(each) for each in open_}
+    open_ = deque(first)
+    reached = {id(each): each for each in open_}
     while open_:
-        for name in open_.pop().names:
+        used = open_.popleft()
+        for name in used.names:
             for user in users.get(name, ()):
                 if id(user) not in reached:
-                    reached.add(id(user))
+                    reached[id(user)] = reached[id(used)]
                     open_.append(user)
     return reached
 
@@ -254,7 +284,7 @@ def report_lines(report: ProgramReport) -> list[str]:
     lines = [f"{'file':{width}}  POUs  run  with stubs  without errors  constructs  refused  other errors"]
     for each in [*reports, whole] if len(reports) > 1 else reports:
         lines.append(
-            f"{each.name:{width}}  {each.pous:4}  {each.run:3}  {each.stubbed:10}  {each.clean:14}  "
+            f"{each.name:{width}}  {each.pous:4}  {each.run:3}  {each.aided:10}  {each.clean:14}  "
             f"{each.supported.total():10}  {each.refused.total():7}  {each.errors:12}"
         )
     if whole.pous:
@@ -268,12 +298,34 @@ def report_lines(report: ProgramReport) -> list[str]:
     if report.libraries:
         lines += ["", f"libraries: {', '.join(report.libraries)}"]
     if report.stubs:
-        lines += ["", "stubs:", *(f"  {each.span}: {each.message}" for each in report.stubs)]
+        lines += ["", "stubs:", *_stub_lines(report)]
     if report.causes:
         lines += ["", "  POUs  places  what stops them"]
         for cause in report.causes:
             lines.append(f"{cause.pous:6}  {len(cause.places):6}  {cause.code} {cause.message} ({cause.places[0]})")
+    if report.waiting:
+        lines += ["", "without an error of their own, and stopped by what they need:"]
+        lines += [f"  {each.pou}: {each.place}" for each in report.waiting]
     return [*lines, "", "in use:", *(f"{count:6}  {name}" for name, count in whole.supported.most_common())]
+
+
+def stubs_alike(report: ProgramReport) -> list[tuple[str, list[tuple[str, Span]]]]:
+    """What is said of stubs, and the names and first uses of all of which the same is said."""
+    same: dict[str, list[tuple[str, Span]]] = {}
+    for each in report.stubs:
+        name = each.message.partition("`")[2].partition("`")[0]
+        general = _PLACES.sub("", each.message).replace(f"`{name}`", "`_`").replace(f"`Stub_{name}`", "`Stub__`")
+        same.setdefault(general, []).append((name, each.span))
+    return [*same.items()]
+
+
+def _stub_lines(report: ProgramReport) -> Iterator[str]:
+    for said, found in stubs_alike(report):
+        if len(found) == 1:
+            yield f"  {found[0][1]}: {said.replace('`_`', f'`{found[0][0]}`').replace('`Stub__`', f'`Stub_{found[0][0]}`')}"
+            continue
+        yield f"  {said}"
+        yield from (f"    {name} ({place})" for name, place in found)
 
 
 def pou_lines(whole: FileReport) -> list[str]:
@@ -304,6 +356,7 @@ def report_json(report: ProgramReport) -> dict[str, object]:
             "pous_that_run": each.run,
             "pous_that_run_with_stubs": each.stubbed,
             "pous_that_run_with_placeholders": each.placeheld,
+            "pous_that_run_with_either": each.aided,
         }
         for each in report.files
     ]
@@ -311,10 +364,11 @@ def report_json(report: ProgramReport) -> dict[str, object]:
         {"code": each.code, "message": each.message, "pous": each.pous, "places": [str(place) for place in each.places]}
         for each in report.causes
     ]
+    waiting = [{"pou": each.pou, "place": str(each.place)} for each in report.waiting]
     stubs = [{"place": str(each.span), "message": each.message} for each in report.stubs]
     libraries, missing = list(report.libraries), list(report.missing)
     about = {"libraries": libraries, "missing_libraries": missing, "missing_files": list(report.absent)}
-    return {"files": files, "causes": causes, **about, "stubs": stubs}
+    return {"files": files, "causes": causes, "waiting": waiting, **about, "stubs": stubs}
 
 
 def whole_of(reports: Sequence[FileReport]) -> FileReport:
@@ -324,10 +378,10 @@ def whole_of(reports: Sequence[FileReport]) -> FileReport:
     for each in reports:
         supported += each.supported
         refused += each.refused
-    counts = [(each.pous, each.clean, each.run, each.stubbed, each.placeheld, each.errors) for each in reports]
-    *sums, errors = map(sum, zip((0, 0, 0, 0, 0, 0), *counts, strict=True))
-    pous, clean, run, stubbed, placeheld = sums
-    return FileReport("all", pous, clean, run, stubbed, placeheld, supported, refused, errors)
+    counts = [(it.pous, it.clean, it.run, it.stubbed, it.placeheld, it.aided, it.errors) for it in reports]
+    *sums, errors = map(sum, zip((0,) * 7, *counts, strict=True))
+    pous, clean, run, stubbed, placeheld, aided = sums
+    return FileReport("all", pous, clean, run, stubbed, placeheld, aided, supported, refused, errors)
 
 
 def _share(part: int, whole: int) -> str:

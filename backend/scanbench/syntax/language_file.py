@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from scanbench.problems import Problem, Severity, Span
-from scanbench.syntax.objects import OBJECTS, is_export
+from scanbench.syntax.objects import OBJECTS, is_export, unclosed
 from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
 from scanbench.syntax.pragmas import POLICIES
 from scanbench.syntax.scl import is_scl
@@ -43,6 +43,10 @@ _TWINCAT_2_MARKS = re.compile(
 """What libraries of TwinCAT 2 declare; in a text of CODESYS 2.3 they say whose it is, where nothing declares them itself."""
 _EXPORTED = re.compile(r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|END_DECLARATION)\s*:=", re.MULTILINE)
 """What CODESYS 2.3, and TwinCAT 2 with it, write into each `.exp`."""
+_COPIED_MARKS = re.compile(
+    r"\b(SMC_\w+|AXIS_REF_SM3|SM3_\w+|SMCB\.)|\b(AND_THEN|OR_ELSE)\b|^\s*\{attribute\s+'", re.MULTILINE
+)
+"""What a text of CODESYS may have that no strict one has; asked for only where no file closes its POU."""
 _CODESYS_MARKS = re.compile(
     r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
 )
@@ -172,8 +176,10 @@ def language_of(sources: Mapping[str, str]) -> tuple[Language, list[Problem]]:
 
 def defined_in(sources: Mapping[str, str]) -> frozenset[str]:
     """The names, in upper case, that these files define for conditional pragmas; and OBJECTS, where each is an object."""
-    objects = {OBJECTS} if is_export(sources) else ()
-    return frozenset((*objects, *(each.upper() for each in language_of(sources)[0].defines)))
+    language = language_of(sources)[0]
+    copied = language.dialect in ("codesys", "twincat") and unclosed(sources)
+    objects = {OBJECTS} if copied or is_export(sources) else ()
+    return frozenset((*objects, *(each.upper() for each in language.defines)))
 
 
 def _read(text: str, file: str) -> Language | Problem:
@@ -249,7 +255,7 @@ def dialect_by_format(names: Iterable[str]) -> DialectName:
 
 def dialect_by_text(sources: Mapping[str, str]) -> DialectName:
     """The same, of formats that only the texts tell: exports of CODESYS. Nothing is guessed by what any program may have."""
-    if is_export(sources):
+    if is_export(sources) or (unclosed(sources) > 1 and any(map(_COPIED_MARKS.search, sources.values()))):
         return "codesys"
     exported = [text for name, text in sources.items() if name.lower().endswith(".exp") and _EXPORTED.search(text)]
     if exported:
@@ -267,9 +273,10 @@ def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> Diale
     if (of_format := dialect_by_format(names)) != STRICT:
         return of_format
     programs = [text for name, text in files.items() if is_program_file(name)]
-    if any(map(_TWINCAT_MARKS.search, programs)) or dialect_by_text(files) == "twincat":
+    of_text = dialect_by_text(files)
+    if any(map(_TWINCAT_MARKS.search, programs)) or of_text == "twincat":
         return "twincat"
-    exported = is_export(files) or any(name.endswith((".exp", ".project", ".export")) for name in names)
+    exported = of_text == "codesys" or any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
     if any(name.endswith(".awl") or is_package(name) for name in names) or any(map(is_scl, files)):

@@ -35,6 +35,7 @@ MARK = re.compile(
 _CLOSED = re.compile(
     r"\bEND_(?:PROGRAM|FUNCTION(?:_BLOCK)?|METHOD|ACTION|PROPERTY|INTERFACE|CLASS|NAMESPACE)\b", re.IGNORECASE
 )
+_OPENED = re.compile(r"^[ \t]*(?:PROGRAM|FUNCTION_BLOCK|FUNCTION)[ \t]+\w", re.IGNORECASE | re.MULTILINE)
 _LEFT_OUT = re.compile(r"^//%[ \t]*cds-text-sync\.exclude_from_build=true[ \t]*$", re.MULTILINE)
 MEMBER = "member"
 """The kind of what has the name of a POU, and of it only the METHOD, ACTION or PROPERTY in `methods` that has a file of its own. Its
@@ -55,6 +56,20 @@ def _is_marked(text: str) -> bool:
     if "IMPLEMENTATION" not in text and "implementation" not in text:
         return False
     return MARK.search(text) is not None and _CLOSED.search(text) is None
+
+
+def unclosed(sources: Mapping[str, str]) -> int:
+    """How many of these files have a POU, where none of the project's own closes one: texts as people copy them out of an editor,
+    which never shows what closes a POU. Else 0, as then a missing END is a mistake."""
+    found = 0
+    for name, text in sources.items():
+        path = name.replace("\\", "/")
+        if not path.lower().endswith(".st") or posixpath.basename(posixpath.dirname(path)) == "libraries":
+            continue
+        if _CLOSED.search(text):
+            return 0
+        found += _OPENED.search(text) is not None
+    return found
 
 
 def is_object(name: str, defined: frozenset[str]) -> bool:

@@ -18,6 +18,8 @@ BINARY: dict[str, tuple[int, str]] = {
 }  # fmt: skip
 """Strength of the operators, 0 the weakest (IEC 61131-3, table 71); all are left-associative, and `-x` is stronger than all."""
 
+ASSIGN = "assign"
+"""The operator of an assignment inside of an expression."""
 _IN_DATA = re.compile(r"%DB(?:([BWD])(\d{1,5})|X(\d{1,5})\.([0-7]))", re.IGNORECASE)
 UNARY = {"-": "neg", "+": "plus", "NOT": "not"}
 POSTFIX = frozenset((".", "[", "(", "^"))
@@ -56,6 +58,15 @@ def expression(c: Cursor, weakest: int = 0) -> tree.Expression:
         if count > MAX_CHAIN:
             raise c.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
     return left
+
+
+def assignment(c: Cursor) -> tree.Expression:
+    """An expression, or as vendors have it an assignment that is one: `b := x <= 0` has the value that `b` has then."""
+    left = expression(c)
+    if not c.accept(":="):
+        return left
+    right = assignment(c)
+    return tree.BinaryOp(ASSIGN, left, right, left.span.to(right.span))
 
 
 def operand(c: Cursor) -> tree.Expression:
@@ -102,7 +113,7 @@ def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
     if text == "(":
         c.take()
         c.enter()
-        inner = expression(c)
+        inner = assignment(c)
         c.leave()
         c.expect(")", "to close the parenthesis")
         return postfix(c, inner) if c.is_("^", ".", "[") else inner

@@ -31,6 +31,9 @@ def assigned(c: Cursor) -> tree.Expression:
     if not c.is_("[") and not (c.is_("(") and c.kinds[start + 1] is NAME and c.texts[start + 2] == ":="):
         return parse_expression.expression(c)
     given = initial(c)
+    if c.texts[c.at] in parse_expression.BINARY:  # `(a := 1) + 2`
+        c.at = start
+        return parse_expression.expression(c)
     assert isinstance(given, tree.ArrayInit | tree.StructInit)
     return tree.Aggregate(given, c.span_from(start))
 

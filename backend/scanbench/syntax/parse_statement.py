@@ -5,7 +5,7 @@ from collections.abc import Callable
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_expression import expression, operand
+from scanbench.syntax.parse_expression import assignment, expression, operand
 from scanbench.syntax.parse_initial import assigned
 from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
@@ -174,7 +174,7 @@ def _exit(c: Cursor) -> tree.Statement:
 def _condition(c: Cursor, keyword: str) -> tree.Expression:
     start, depth = c.at, c.depth
     try:
-        condition = expression(c)
+        condition = assignment(c)
     except Unexpected:
         c.depth = depth
         if not _reach(c, keyword):
@@ -300,7 +300,7 @@ def _repeat(c: Cursor) -> tree.Statement:
     span = c.span_from(start)
     body = statements(c)
     c.expect("UNTIL", f"to close the REPEAT of line {c.line_of(start)}")
-    until = expression(c)
+    until = assignment(c)
     c.accept(";")
     _close_block(c, "END_REPEAT", start)
     return tree.RepeatStatement(body, until, span)

@@ -86,6 +86,7 @@ USES = [
     (Allowance.ENUM_NUMBERS, "state := i;", "State#Off"),
     (Allowance.ARGUMENT_NAMES, "s := LEFT(IN := s, SIZE := 3);", "LEFT(L := ...)"),
     (Allowance.CHAINED_ASSIGNMENT, "i := j := 5;", "j := 5; i := j;"),
+    (Allowance.ASSIGNED_VALUES, "IF ok := (i = 3) THEN j := 1; END_IF", "`ok := ...;` before it"),
     (Allowance.RETURN_CONDITION, "RETURN(ok);", "IF ok THEN RETURN; END_IF"),
     (Allowance.VENDOR_OPERATORS, "s := __POUNAME();", "'Main'"),
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),

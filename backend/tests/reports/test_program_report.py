@@ -67,6 +67,12 @@ END_FUNCTION_BLOCK
     reports = report.files
     assert [(each.name, each.pous, each.run) for each in reports] == [("Types.st", 0, 0), ("Blocks.st", 3, 1)]
     assert [each["pous_that_run"] for each in files_of(report)] == [0, 1]
+    assert [(each.pou, str(each.place)) for each in report.waiting] == [
+        ("Inner", "Types.st:1:26"),
+        ("Outer", "Types.st:1:26"),
+    ]
+    assert "  Outer: Types.st:1:26" in report_lines(report)
+    assert "Outer" in program_page(report, "Line")
 
 
 def test_pous_that_use_a_stub_by_whatever_way_are_told_apart_and_libraries_are_not_counted() -> None:
@@ -116,3 +122,35 @@ def test_a_library_without_a_program_stops_nothing_and_names_are_left_out_where_
     wrong = {"Main.st": record + "PROGRAM Main\nVAR t : T; END_VAR\nt.b := 1;\nt.c := 1;\nEND_PROGRAM\n"}
     causes = program_report(wrong, check_sources(wrong, MODELS["GENERIC-IEC"]).problems).causes
     assert [each.message for each in causes] == ["`T` has no member `_`."]
+
+
+def test_what_is_said_of_several_stubs_is_said_once_and_both_kinds_are_counted_in_the_column() -> None:
+    texts = {
+        "libraries/Drive.st": """VAR_GLOBAL Stub_Heat, Stub_Cool : INT; END_VAR
+FUNCTION Heat : INT
+{stub}
+Heat := Stub_Heat;
+END_FUNCTION
+FUNCTION Cool : INT
+{stub}
+Cool := Stub_Cool;
+END_FUNCTION
+""",
+        "libraries/Placeholders.st": "TYPE Recipe : STRUCT n : INT; END_STRUCT END_TYPE\n",
+        "Main.st": """PROGRAM Main
+VAR n : INT; END_VAR
+n := Heat() + Cool() + Heat();
+END_PROGRAM
+PROGRAM Plain
+VAR r : Recipe; END_VAR
+r.n := 1;
+END_PROGRAM
+""",
+    }
+    report = program_report(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
+    assert [(each.run, each.stubbed, each.placeheld, each.aided) for each in report.files] == [(2, 1, 1, 2)]
+    lines = report_lines(report)
+    assert lines[1].split()[1:4] == ["2", "2", "2"]
+    assert sum("without a real body" in line for line in lines) == 1
+    assert {"    Heat (Main.st:3:6)", "    Cool (Main.st:3:15)"} < set(lines)
+    assert any("`Recipe` is a placeholder" in line and "Main.st:6:9" in line for line in lines)

@@ -231,3 +231,22 @@ def test_two_blocks_of_one_name_in_two_applications_keep_their_own_members() -> 
     }
     found = {(each.name, each.file) for each in check_sources(files, MODEL).pous if each.kind == "method"}
     assert found == {("FB.Run", "A/FB.Run.st"), ("FB.Go", "B/FB.Go.st")}
+
+
+def test_texts_that_were_copied_out_of_an_editor_are_closed_where_they_end() -> None:
+    copied = {
+        "F_Inc.st": "FUNCTION F_Inc : INT\nVAR_INPUT a : INT; END_VAR\n\nF_Inc := a + 1;\n",
+        "Main.st": "// runs\nPROGRAM Main\nVAR n : INT; END_VAR\nIF n = 0 OR_ELSE n = 1 THEN n := F_Inc(n); END_IF",
+    }
+    assert guess_dialect(copied) == "codesys"
+    project = with_dialect_by_format(copied)
+    assert [each for each in check_sources(project, MODEL).problems if each.severity is Severity.ERROR] == []
+    engines = BothEngines(project, MODEL)
+    engines.run()
+    engines.run()
+    assert engines.values("Main.n") == ["2"]
+    one = {"F_Inc.st": copied["F_Inc.st"]}
+    assert [each.code for each in check_sources(with_dialect(one, "twincat"), MODEL).problems] == ["D011"]
+    assert ["`END_FUNCTION` expected" in each.message for each in check_sources(one, MODEL).problems] == [True]
+    closed = with_dialect(copied | {"Other.st": "FUNCTION Other : INT\nOther := 1;\nEND_FUNCTION\n"}, "codesys")
+    assert sum("expected to close" in each.message for each in check_sources(closed, MODEL).problems) == 2

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from scanbench.check.body.allowed import allowed
+from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.coercion import as_type
 from scanbench.check.body.context import Body
 from scanbench.check.declare.declarations import StartExpression
@@ -15,6 +15,9 @@ from scanbench.syntax import tree
 
 def aggregate(body: Body, node: tree.Aggregate, wanted: Type | None) -> Expr:
     """A hidden variable with these values: they are all computed before anything is assigned."""
+    value = _one_assignment(node)
+    if value is not None and not isinstance(wanted, ArrayType | Record) and may(body, Allowance.ASSIGNED_VALUES):
+        return body.expression(value)
     what = "This is all that an array or structure has"
     if not allowed(body, Allowance.LITERAL_VALUES, node.span, what):
         raise body.report.reject(
@@ -40,3 +43,14 @@ def aggregate(body: Body, node: tree.Aggregate, wanted: Type | None) -> Expr:
         part = replace(whole, type=each.type, offset=whole.offset + each.offset)
         made.append(Assign(part, as_type(body, each.node, each.type, "This value"), each.node.span))
     return Sequence(tuple(made), Load(whole))
+
+
+def _one_assignment(node: tree.Aggregate) -> tree.Expression | None:
+    """`(b := 1)`, which is the same text as a structure with one member."""
+    members = node.value.members if isinstance(node.value, tree.StructInit) else ()
+    if len(members) != 1:
+        return None
+    name, value, span = members[0]
+    if isinstance(value, tree.ArrayInit | tree.StructInit):
+        return None
+    return tree.BinaryOp("assign", tree.Name(name, span), value, node.span)

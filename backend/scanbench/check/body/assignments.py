@@ -21,7 +21,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.settings import waits
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
-from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Stmt
+from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Sequence, Stmt
 from scanbench.program.shown import shown
 from scanbench.program.types import BOOL, ArrayType, Elementary, Kind, Record, Reference, Type, has_instance
 from scanbench.program.untyped import ANY_INT, is_untyped, settle
@@ -124,6 +124,34 @@ def _chained(body: Body, node: tree.Assignment) -> Stmt:
         made.append(assign(body, replace(node, target=each, value=value, also=())))
         value = each
     return together(made, node.span)
+
+
+def assigned_value(body: Body, node: tree.BinaryOp) -> Expr:
+    """`b := x <= 0` inside of an expression: assigns, and has the value that the variable has then."""
+    name, span = shown(node.left), node.span
+    instead = f"`{name} := ...;` before it"
+    if not allowed(body, Allowance.ASSIGNED_VALUES, span, "An assignment is used as a value", instead):
+        raise body.report.reject("S003", f"`:=` assigns. To compare write `=`; to assign, write {instead}.", span)
+    if body.pou is None or not body.effects.checks:
+        raise body.report.reject("S003", "Only statements assign. To compare write `=`.", span)
+    if _computed(node.left):
+        raise body.report.reject(
+            "T002", f"The index of `{name}` is computed twice here; write the assignment before, {instead}.", span
+        )
+    made = assign(body, tree.Assignment(node.left, node.right, span))
+    return Sequence((made,), body.expression(node.left))
+
+
+def _computed(node: tree.Expression) -> bool:
+    """Whether something else runs where the variable is looked for: a call in an index, say."""
+    match node:
+        case tree.IndexOf(array, indices):
+            return _computed(array) or any(_mentions(each, set()) for each in indices)
+        case tree.MemberOf(owner=inner) | tree.PartialAccess(owner=inner) | tree.Dereference(reference=inner):
+            return _computed(inner)
+        case tree.Name() | tree.DirectAddress():
+            return False
+    return True
 
 
 def _indexed_by(node: tree.Expression, names: set[str]) -> bool:

@@ -6,6 +6,7 @@ from scanbench.check.body import fold
 from scanbench.check.body.absolute import of_data
 from scanbench.check.body.aggregates import aggregate
 from scanbench.check.body.allowed import may
+from scanbench.check.body.assignments import assigned_value
 from scanbench.check.body.bitwise import inverted, literal_inverted
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
@@ -68,6 +69,8 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
             return _unary(body, node, wanted)
         case tree.Aggregate():
             return aggregate(body, node, wanted)
+        case tree.BinaryOp("assign"):
+            return assigned_value(body, node)
         case tree.BinaryOp():
             return _binary(body, node, wanted)
         case tree.Call():

@@ -75,6 +75,8 @@ class StartExpression:
     """In bytes, from the beginning of the variable."""
     type: Type
     node: tree.Expression
+    property: str = ""
+    """What it is given to, where that is no variable: `name` or `member.name`, a property of the block in the variable."""
 
 
 Given: TypeAlias = "StartReference | Afresh | StartExpression"

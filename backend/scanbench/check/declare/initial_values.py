@@ -120,6 +120,10 @@ def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
         first = len(declared.given)
         made = _image(declared, item, element)
         inside = declared.given[first:]
+        if any(isinstance(each, StartExpression) and each.property for each in inside):
+            raise declared.report.reject(
+                "D004", "A property of an element of an array is assigned in the body.", value.span
+            )
         del declared.given[first:]
         for number in range(given, min(given + count, total) if inside else given):
             declared.given += [replace(each, offset=each.offset + number * element.size) for each in inside]
@@ -156,6 +160,9 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
         if name.upper() in named:
             raise declared.report.reject("D004", f"`{name}` is given twice.", span)
         named.add(name.upper())
+        if _is_property(declared, type, name) and isinstance(item, tree.Expression):
+            declared.given.append(StartExpression(0, type, item, name))
+            continue
         member = _member(declared, type, name, span, (Section.IN_OUT,))
         before = len(declared.given)
         _put(image, member.offset, member.bit, _inside(declared, item, member.type, member.offset, name))
@@ -164,6 +171,21 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
                 "D004", f"`{name}` shares its byte with others: its value is a constant here.", span
             )
     return bytes(image)
+
+
+def _is_property(declared: Declarations, type: Record, name: str) -> bool:
+    """Whether a block, or one that it extends, declares a property of this name, which the dialect starts with a value."""
+    if Allowance.START_EXPRESSIONS not in declared.dialect.allows or name.upper() in type.members:
+        return False
+    above: Record | None = type
+    while above is not None:
+        pou = declared.block_trees.get(above.name.upper())
+        if pou is not None and any(
+            each.kind in ("get", "set") and each.name.upper() == name.upper() for each in pou.methods
+        ):
+            return True
+        above = above.base
+    return False
 
 
 def _by_order(declared: Declarations, type: Record, given: str, span: Span) -> str:
@@ -187,6 +209,8 @@ def _inside(declared: Declarations, item: tree.Initial, type: Type, offset: int,
     moved = [
         replace(each, offset=each.offset + offset, name=each.name or name)
         if isinstance(each, StartReference)
+        else replace(each, offset=each.offset + offset, property=f"{name}.{each.property}")
+        if isinstance(each, StartExpression) and each.property
         else replace(each, offset=each.offset + offset)
         for each in declared.given[first:]
     ]

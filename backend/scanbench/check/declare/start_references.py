@@ -197,7 +197,8 @@ def _compute(declared: Declarations, owner: Record, member: Member, given: Start
     if member.constant or member.section is Section.MEMBER or called:
         declared.constant_of(given.node, given.type)  # tells what is wrong
         raise declared.report.reject("D004", "A constant is needed here: a literal or a CONSTANT.", given.node.span)
-    used = f"The start value of `{member.name}` is computed"
+    name = member.name.rpartition("$")[2]  # what a method keeps has the method before it
+    used = f"The start value of `{name}` is computed"
     declared.report.warn("W006", said(declared.dialect, Allowance.START_EXPRESSIONS, used), given.node.span)
     declared.computed.setdefault((owner.name.upper(), member.name.upper()), []).append(given)
 

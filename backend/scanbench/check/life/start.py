@@ -6,9 +6,11 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from scanbench.check.body.arguments import invoke
 from scanbench.check.body.context import Body
 from scanbench.check.body.direct import as_argument
+from scanbench.check.body.methods import assign_property
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
+from scanbench.check.declare.declarations import StartExpression
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
 from scanbench.check.declare.start_references import own_references, refers
@@ -85,11 +87,27 @@ class Writer:
         for each in self.body.declarations.computed.get(key, ()):
             span, type = member.span, each.type  # as all that initialises a variable: no statement of its own
             self._only_above(record, member, each.node)
-            value = as_argument(self.body, each.node, type, f"`{member.name}`")
-            target = replace(place, type=type, offset=place.offset + each.offset)
-            one: Stmt = Assign(target, value, span)
+            if each.property:
+                one = self._property(member, each)
+            else:
+                value = as_argument(self.body, each.node, type, f"`{member.name}`")
+                one = Assign(replace(place, type=type, offset=place.offset + each.offset), value, span)
             kept = self.passed_on and member.retain
             made.append(If(((self.body.expression(self._input(RETAINS, span)), (one,)),), (), span) if kept else one)
+        return made
+
+    def _property(self, member: Member, given: StartExpression) -> Stmt:
+        """SET of a property of what the variable holds: it may write anything, so it runs when that is initialised."""
+        node: tree.Expression = tree.Name(member.name, given.node.span)
+        for name in given.property.split("."):
+            node = tree.MemberOf(node, name, given.node.span)
+        made = assign_property(self.body, node, given.node, given.node.span)
+        if made is None:  # it has GET alone
+            raise self.body.report.reject(
+                "D004",
+                f"`{given.property}` is a property without SET, so nothing starts it with a value.",
+                given.node.span,
+            )
         return made
 
     def _only_above(self, record: Record, member: Member, node: tree.Expression) -> None:

@@ -186,6 +186,8 @@ class Body:
                 value.root.literals |= {"bool"} if op == "not" else set()
                 return value
             case tree.BinaryOp(op=op, left=left, right=right):
+                if op == "assign":
+                    self._written(left)
                 return self._binary(op, self.of(left), self.of(right), each)
             case tree.Call():
                 return self._call(each, used)

@@ -107,7 +107,11 @@ class World:
         found = CONVERSION.fullmatch(name)
         if self.only is not None and name in self.only:
             return known
-        return known or name.partition("_")[0] in FUNCTIONS or (found is not None and found[2] in ELEMENTARY)
+        return (
+            known
+            or name.partition("_")[0] in FUNCTIONS
+            or (found is not None and found[2] in (*ELEMENTARY, "STRING", "WSTRING"))
+        )
 
     def is_list(self, name: str) -> bool:
         """Whether it is called like a list of global variables, and is nothing else."""
