@@ -24,6 +24,7 @@ SCHEMA = etree.XMLSchema(etree.parse(Path(__file__).parent / "tc6_xml_v201.xsd")
 """As PLCopen published it for TC6 2.01; this copy is that of the package plcopen 1.0.1."""
 NOT_WRITTEN = {
     "charts/edges and loops of actions remember, each instance for itself; an address is an action",
+    "charts/an heir that has an ACTION again, or a body, in a chart of its own with the same actions",
     "diagrams/a loop with a number, and its type",
     "diagrams/jumps of a diagram, rungs beside it, and a wire that a box sets",
     "diagrams/types that a wire says, EN on a wire, and a subrange",
